@@ -29,6 +29,7 @@ AT_RUN_TIME = (
 OTHERS = (
     [f"timeline_on/{n}" for n in JOINTS] +
     [f"online_trajectory/{n}/{which}" for n in (1, 7, 14) for which in ("mean", "worst")] +
+    [f"cartesian/7/{which}" for which in ("mean", "worst", "plan", "plan_jog")] +
     ["cia402/bus_of_wire", "cia402/computing"] +
     [f"model/{n}{after}" for n in (2, 7) for after in ("", "/after_10_ms")] +
     ["janus_feed_forward", "event_command"] +
@@ -44,6 +45,7 @@ WITHOUT_REFERENCE = (
     [f"{what}_per_component/100" for what in ("start", "load", "memory")]
     + ["periods_exact", "resident_two_joints", "resident_two_joints/locked", "cia402/computing"]
     + [f"online_trajectory/{n}/{which}" for n in (1, 7, 14) for which in ("mean", "worst")]
+    + [f"cartesian/7/{which}" for which in ("mean", "worst", "plan", "plan_jog")]
 )
 
 

@@ -20,6 +20,7 @@ void add_all(const armature::benchmarks::Suite& suite) {
   add_threaded_cycles(suite);
   add_models(suite);
   add_online_trajectories(suite);
+  add_cartesian(suite);
   add_drives(suite);
   add_vision(suite);
   add_calls(suite);

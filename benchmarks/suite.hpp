@@ -74,6 +74,7 @@ void add_timelines(const Suite& suite);
 void add_watches(const Suite& suite);
 void add_models(const Suite& suite);
 void add_online_trajectories(const Suite& suite);
+void add_cartesian(const Suite& suite);
 void add_drives(const Suite& suite);
 void add_vision(const Suite& suite);
 void add_calls(const Suite& suite);

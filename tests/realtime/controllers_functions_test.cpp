@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "armature/component/host.hpp"
-#include "armature/controllers/axes_generator/held_jog.hpp"
+#include "armature/controllers/base/held_jog.hpp"
 #include "armature/controllers/base/joint_hardware.hpp"
 #include "armature/controllers/base/sample_watch.hpp"
 #include "armature/controllers/base/sampling_period.hpp"

@@ -1,122 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The arm's tool on lines, arcs and paths, planned by PathPlanner.
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/control/cartesian/inverse_kinematics.hpp"
-#include "armature/control/cartesian/pose_path.hpp"
-#include "tests/wam/arm.hpp"
+#include "tests/wam/on_paths.hpp"
 
 namespace armature::wam {
 namespace {
 
-using namespace std::chrono_literals;
-using component::CommandStage;
-using control::Pose;
-using control::PosePath;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-class WamOnPaths : public ::testing::Test {
- protected:
-  WamOnPaths() : arm("../demo/paths.yaml", {}) {
-    base::Diagnostics diagnostics;
-    kinematics_ = control::InverseKinematics::load(
-        WAM "/wam7.urdf", {.base_link = {}, .tip_link = "tool"}, diagnostics);
-  }
-  void SetUp() override {
-    arm.start_armed();
-    ASSERT_EQ(
-        run("Generator", "moveTo",
-            {types::Value::of(Vector{0.2, -1.2, 0.3, 2.2, -0.5, 0.4, 0.5}), types::Value::of(4.0)}),
-        "");
-    arm.run_for(500ms);
-    begin_ = kinematics_->pose_at(desired());
-  }
-  Vector desired() { return arm.value<Vector>("Generator", "nAxesDesiredPosition"); }
-  /// Where it began, and so much beside [m].
-  Pose beside(double x, double y, double z) {
-    control::PoseNumbers numbers = control::numbers_of(begin_);
-    numbers[0] += x;
-    numbers[1] += y;
-    numbers[2] += z;
-    return control::pose_of(numbers);
-  }
-  static Vector numbers(const std::vector<Pose>& poses) {
-    Vector all;
-    for (const Pose& pose : poses) {
-      const control::PoseNumbers one = control::numbers_of(pose);
-      all.insert(all.end(), one.begin(), one.end());
-    }
-    return all;
-  }
-  /// @return why it was not done, or nothing
-  std::string run(
-      const char* component, const char* command, std::vector<types::Value> arguments,
-      const std::function<void()>& each_cycle = [] {}) {
-    auto begun = arm.application().begin(component, command, std::move(arguments));
-    if (!begun) return begun.error();
-    for (int i = 0; i < 30000 && !begun.value().ended(); ++i) {
-      arm.cycle();
-      each_cycle();
-    }
-    return begun.value().stage() == CommandStage::kDone ? "" : std::string(begun.value().reason());
-  }
-  /// Follows a path, and looks at the tool's reference and at the tool.
-  void follow(const char* command, std::vector<types::Value> arguments, const PosePath& path) {
-    double off = 0.0;
-    double arm_off = 0.0;
-    double fastest = 0.0;
-    Pose last = kinematics_->pose_at(desired());
-    const auto look = [&] {
-      const Pose wanted = kinematics_->pose_at(desired());
-      fastest = std::max(fastest, control::distance(wanted, last).way / 0.002);
-      last = wanted;
-      off = std::max(off, distance_from(path, wanted));
-      arm_off = std::max(arm_off, distance_from(path, kinematics_->pose_at(measured())));
-    };
-    ASSERT_EQ(run("Planner", command, std::move(arguments), look), "") << arm.log;
-    arm.run_for(500ms);
-    EXPECT_LT(off, 0.0015) << "max_deviation, and a millimetre of what it is compared with";
-    EXPECT_LT(arm_off, 0.02) << "the arm lags behind, mostly along the path";
-    EXPECT_LT(fastest, 0.26) << "max_tool_velocity";
-    EXPECT_LT(control::distance(kinematics_->pose_at(desired()), path.at(path.length())).way, 1e-3);
-    EXPECT_LT(control::distance(kinematics_->pose_at(measured()), path.at(path.length())).way,
-              5e-3);
-    EXPECT_TRUE(arm.armed()) << arm.log;
-  }
-  static double distance_from(const PosePath& path, const Pose& pose) {
-    double nearest = 1.0;
-    const int steps = static_cast<int>(path.length() / 0.001);
-    for (int i = 0; i <= steps; ++i) {
-      nearest = std::min(nearest, control::distance(path.at(path.length() * i / steps), pose).way);
-    }
-    return nearest;
-  }
-  Vector measured() {
-    Vector all = arm.value<Vector>("Sensor", "sensor");
-    all.resize(7);
-    return all;
-  }
-  void expect_refused(const char* command, std::vector<types::Value> arguments,
-                      const ::testing::Matcher<std::string>& why) {
-    const Vector before = desired();
-    EXPECT_THAT(run("Planner", command, std::move(arguments)), why);
-    arm.run_for(500ms);
-    EXPECT_EQ(desired(), before) << "nothing moves";
-  }
-
-  Arm arm;
-  std::optional<control::InverseKinematics> kinematics_;
-  Pose begin_;
-};
 
 TEST_F(WamOnPaths, MovesItsToolOnALine) {
   const Pose to = beside(0.05, 0.2, 0.1);
@@ -144,7 +42,7 @@ TEST_F(WamOnPaths, MovesItsToolOnASquareWithRoundedCorners) {
 TEST_F(WamOnPaths, WhatCannotBeIsRefusedAndNothingMoves) {
   expect_refused("moveLinear",
                  {types::Value::of(numbers({beside(0, 0, 2)})), types::Value::of(0.0)},
-                 HasSubstr(" m along the path of 2.000 m "));
+                 HasSubstr(" m along the path of 2.000 m, at x "));
   expect_refused("moveLinear", {types::Value::of(Vector{1, 2, 3}), types::Value::of(0.0)},
                  HasSubstr("found 3 numbers, expected six for each pose"));
   expect_refused("moveLinear",
@@ -191,6 +89,96 @@ TEST_F(WamOnPaths, CancelledItBrakesOnThePath) {
   EXPECT_TRUE(arm.armed());
 }
 
+TEST_F(WamOnPaths, APathBeginsOnlyWhereTheJointsRest) {
+  const std::vector<types::Value> line{types::Value::of(numbers({beside(0, 0.1, 0)})),
+                                       types::Value::of(0.0)};
+  auto move = arm.application().begin(
+      "Generator", "moveTo",
+      {types::Value::of(Vector{0.4, -1.0, 0.3, 2.2, -0.5, 0.4, 0.5}), types::Value::of(3.0)});
+  ASSERT_TRUE(move) << move.error();
+  arm.run_for(1s);
+  const auto moves = HasSubstr("the joints move, or brake: wait until they rest");
+  EXPECT_THAT(run("Planner", "moveLinear", line), moves);
+  EXPECT_EQ(move.value().stage(), CommandStage::kAccepted) << "and disturbs nothing";
+  move.value().cancel();
+  arm.run_for(20ms);
+  EXPECT_EQ(move.value().stage(), CommandStage::kCancelled);
+  EXPECT_THAT(run("Planner", "moveLinear", line), moves) << "it brakes";
+  arm.run_for(2s);
+  EXPECT_EQ(run("Planner", "moveLinear", line), "");
+}
+
+TEST_F(WamOnPaths, StoppingThePlannerEndsItsMotion) {
+  auto begun = arm.application().begin(
+      "Planner", "moveLinear",
+      {types::Value::of(numbers({beside(0.05, 0.3, 0.1)})), types::Value::of(0.0)});
+  ASSERT_TRUE(begun) << begun.error();
+  arm.run_for(1s);
+  ASSERT_TRUE(arm.application().stop_component("Planner"));
+  arm.run_for(1s);
+  const Vector rest = desired();
+  EXPECT_EQ(arm.value<Vector>("Generator", "nAxesDesiredVelocity"), Vector(7, 0.0));
+  arm.run_for(500ms);
+  EXPECT_EQ(desired(), rest);
+  ASSERT_TRUE(arm.application().start_component("Planner"));
+  EXPECT_EQ(
+      run("Planner", "moveLinear", {types::Value::of(numbers({begin_})), types::Value::of(0.0)}),
+      "");
+}
+
+TEST_F(WamOnPaths, AnEstopEndsItAndNothingGoesOnAfterTheReset) {
+  auto begun = arm.application().begin(
+      "Planner", "moveLinear",
+      {types::Value::of(numbers({beside(0.05, 0.3, 0.1)})), types::Value::of(0.0)});
+  ASSERT_TRUE(begun) << begun.error();
+  arm.run_for(1s);
+  ASSERT_EQ(arm.call("WAM", "estop"), "");
+  arm.run_for(200ms);
+  EXPECT_EQ(arm.state("WAM"), component::State::kException);
+  EXPECT_FALSE(arm.armed());
+  EXPECT_EQ(begun.value().stage(), CommandStage::kFailed);
+  EXPECT_TRUE(arm.pucks_are_idle()) << "the arm brakes";
+  ASSERT_TRUE(arm.application().reset_component("WAM")) << arm.reason("WAM");
+  ASSERT_TRUE(arm.application().clean_up_component("WAM"));
+  ASSERT_TRUE(arm.application().start_component("WAM")) << arm.reason("WAM");
+  for (const char* name :
+       {"Sensor", "BridgeRef", "Reference", "Generator", "Controller", "PID1", "PID2", "PID3",
+        "PID4", "PID5", "PID6", "PID7", "Actuator", "Arming", "Planner"}) {
+    if (arm.state(name) != component::State::kStopped) continue;
+    ASSERT_TRUE(arm.application().start_component(name)) << name;
+  }
+  arm.run_for(1s);
+  ASSERT_EQ(arm.safety_state(), "ACTIVATED") << arm.waits_for();
+  const Vector home = arm.positions();
+  arm.run_for(2s);
+  EXPECT_LT(largest_apart(arm.positions(), home), 0.003) << "nothing goes on by itself";
+  arm.arm();
+  arm.run_for(2s);
+  EXPECT_LT(largest_apart(arm.positions(), home), 0.005) << "nor once it is armed";
+}
+
+/// Its Planner in another activity.
+std::string mistakes_with(const std::string& activity) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {LIBRARIES};
+  auto deployment = deploy::parse_deployment(
+      "include: paths.yaml\ncomponents:\n  Planner: {override: true, "
+      "activity: {" +
+          activity + "}}\n",
+      WAM "/demo/other.yaml", options);
+  return deployment.diagnostics.to_text();
+}
+
+TEST(PathPlanner, PlansInNoThreadOfTheControl) {
+  EXPECT_THAT(mistakes_with("periodic: 2 ms, priority: 40"),
+              AllOf(HasSubstr("'Planner': it plans for tens of milliseconds"),
+                    HasSubstr("scheduler: other")));
+  EXPECT_THAT(mistakes_with("periodic: 10 ms, scheduler: deadline, budget: 1 ms"),
+              HasSubstr("its thread is a real-time one"));
+  EXPECT_THAT(mistakes_with("periodic: 40 ms, scheduler: other"), HasSubstr("at most 20 ms"));
+  EXPECT_EQ(mistakes_with("periodic: 10 ms, scheduler: other"), "");
+}
+
 TEST(PathPlanner, AnArmWithFewerThanSixJointsIsRefused) {
   deploy::DeploymentOptions options;
   options.library_folders = {LIBRARIES};
@@ -205,6 +193,7 @@ components:
     properties: {joints: 4, robot_description: "${description}", tip_link: tool}
 connections:
   - Generator.nAxesDesiredPosition -> Planner.nAxesDesiredPosition
+  - Generator.nAxesDesiredVelocity -> Planner.nAxesDesiredVelocity
 )",
                                              WAM "/deployments/paths4.yaml", options);
   ASSERT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();

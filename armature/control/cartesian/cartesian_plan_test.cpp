@@ -12,12 +12,14 @@
 #include <gtest/gtest.h>
 
 #include "armature/control/taught/taught_motion.hpp"
+#include "armature/control/taught/timed_path.hpp"
 
 namespace armature::control {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Planned : public ::testing::Test {
  protected:
@@ -55,7 +57,9 @@ TEST_F(Planned, ALineIsFollowedByTheTool) {
   EXPECT_LT(planned.value().largest_deviation, limits_.max_deviation);
   const TaughtMotion motion{.axes = 7, .points = planned.value().points};
   const double duration = motion.duration_s();
-  EXPECT_NEAR(duration / planned.value().speed, planned.value().duration_s, 0.15);
+  const double speeding_up_s = planned.value().speed / TimedPath::kHardest;
+  EXPECT_NEAR(duration / planned.value().speed + speeding_up_s, planned.value().duration_s, 0.1)
+      << "the player speeds up before the tool moves, and slows down when it rests";
   double fastest = 0.0;
   Pose last = path.at(0.0);
   for (int k = 1; k <= 1000; ++k) {
@@ -113,7 +117,14 @@ TEST_F(Planned, ASlowTurnDecidesHowFastATurningToolIs) {
 
 TEST_F(Planned, WhatIsOutOfReachIsRefusedWithThePlace) {
   EXPECT_THAT(plan(PosePath::line(here(), moved(0, 0, 1.5)).value()).error(),
-              AllOf(HasSubstr(" m along the path of 1.500 m"), HasSubstr("reach")));
+              AllOf(HasSubstr(" m along the path of 1.500 m, at x "), HasSubstr("reach"),
+                    Not(HasSubstr("singular"))));
+  limits_.lower.assign(7, -10.0);  // so that no joint's limit comes first
+  limits_.upper.assign(7, 10.0);
+  PoseNumbers far = numbers_of(here());
+  for (std::size_t i = 0; i < 3; ++i) far[i] *= 3.0;
+  EXPECT_THAT(plan(PosePath::line(here(), pose_of(far)).value()).error(),
+              AllOf(HasSubstr("reach"), Not(HasSubstr("singular"))));
 }
 
 TEST_F(Planned, AJointBeyondItsLimitIsRefusedWithThePlace) {
@@ -121,16 +132,25 @@ TEST_F(Planned, AJointBeyondItsLimitIsRefusedWithThePlace) {
   const Pose base = here();
   PoseNumbers far = numbers_of(base);
   for (std::size_t i = 0; i < 3; ++i) far[i] *= 1.25;
-  EXPECT_THAT(plan(PosePath::line(base, pose_of(far)).value()).error(),
-              AllOf(HasSubstr(" m along the path of "), HasSubstr("joint 4 (")));
+  EXPECT_THAT(
+      plan(PosePath::line(base, pose_of(far)).value()).error(),
+      AllOf(HasSubstr(" m along the path of "), HasSubstr(", joint 4 (joint4) would be at "),
+            HasSubstr(", expected 2.000 to 3.142")));
 }
 
 TEST_F(Planned, APathThroughASingularPlaceIsRefusedWithThePlace) {
-  // The straight arm can go no further out, and to get back in any direction its elbow turns fast.
-  start_ = {0.0, 0.9, 0.0, 0.06, 0.0, 0.3, 0.0};
-  const Pose base = here();
-  EXPECT_THAT(plan(PosePath::line(base, moved(0.02, 0, 0.02)).value()).error(),
-              HasSubstr(" m along the path of "));
+  // Without its first joint the arm has six; joints 5 and 7 nearly turn about one axis.
+  base::Diagnostics diagnostics;
+  arm_ = InverseKinematics::load(WAM7, {.base_link = "link1", .tip_link = "tool"}, diagnostics);
+  ASSERT_TRUE(arm_) << diagnostics.to_text();
+  limits_.lower.assign(6, -10.0);
+  limits_.upper.assign(6, 10.0);
+  start_ = {0.7, 0.0, 1.7, 0.8, 0.02, 0.0};
+  const auto planned = plan(PosePath::line(here(), moved(0, 0, 0, 0.5)).value());
+  ASSERT_FALSE(planned);
+  EXPECT_THAT(planned.error(),
+              AllOf(HasSubstr(" m along the path of "), HasSubstr("the arm is singular: joint"),
+                    HasSubstr(" mm of way"), Not(HasSubstr("reach"))));
 }
 
 TEST_F(Planned, APathThatBeginsElsewhereIsRefused) {

@@ -15,10 +15,11 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using RowMatrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-constexpr double kWayOfATurn = 0.1;   // m for each rad
-constexpr double kNearest = 1e-6;     // m, of two places that are told apart
-constexpr double kLeastTurn = 1e-6;   // rad, likewise
-constexpr int kStepsOfACorner = 256;  // to know how long a parabola is
+constexpr double kWayOfATurn = 0.1;    // m for each rad
+constexpr double kNearest = 1e-6;      // m, of two places that are told apart
+constexpr double kLeastTurn = 1e-6;    // rad, likewise
+constexpr int kStepsOfACorner = 256;   // to know how long a parabola is
+constexpr double kTurnsBack = -0.985;  // cosine of 170 degrees between two lines
 
 struct Place {
   Vector3d position;
@@ -46,6 +47,19 @@ double way_of(double distance, const Quaterniond& from, const Quaterniond& to) {
   return std::max(distance, kWayOfATurn * from.angularDistance(to));
 }
 
+/// From one place to another: the way, and the turn as a vector, 0.1 m for each rad.
+struct Leap {
+  Vector3d way;
+  Vector3d turn;
+
+  Leap(const Place& from, const Place& to) : way(to.position - from.position) {
+    const Eigen::AngleAxisd turned(from.turn.inverse() * to.turn);
+    turn = kWayOfATurn * turned.angle() * turned.axis();
+  }
+  double length() const { return std::hypot(way.norm(), turn.norm()); }
+  double dot(const Leap& other) const { return way.dot(other.way) + turn.dot(other.turn); }
+};
+
 base::Error not_finite() { return base::Error{"a number of the pose is not finite"}; }
 
 }  // namespace
@@ -55,11 +69,13 @@ class PosePath::Part {
  public:
   virtual ~Part() = default;
   double length() const { return length_; }
+  double most_bend() const { return most_bend_; }  ///< [1/m]
   /// @param way  0..length()
   virtual Place at(double way) const = 0;
 
  protected:
   double length_ = 0.0;
+  double most_bend_ = 0.0;
 };
 
 namespace {
@@ -93,6 +109,7 @@ class Arc final : public PosePath::Part {
         from_(from),
         to_(to) {
     length_ = way_of(angle * outward_.norm(), from, to);
+    most_bend_ = outward_.norm() * angle / length_ * angle / length_;
   }
   Place at(double way) const override {
     const double share = way / length_;
@@ -125,6 +142,9 @@ class Corner final : public PosePath::Part {
       last = std::move(next);
     }
     length_ = ways_.back();
+    for (int k = 0; k <= kStepsOfACorner; ++k) {
+      most_bend_ = std::max(most_bend_, bend_at(static_cast<double>(k) / kStepsOfACorner));
+    }
   }
   Place at(double way) const override {
     const auto above = std::upper_bound(ways_.begin() + 1, ways_.end() - 1, way);
@@ -142,12 +162,38 @@ class Corner final : public PosePath::Part {
     };
     return between(between(from_, corner_), between(corner_, to_));
   }
+  /// The second derivative by the way, of place or turn, of which the faster one is the way.
+  double bend_at(double share) const {
+    const Leap in(from_, corner_);
+    const Leap out(corner_, to_);
+    const auto slope = [&](const Vector3d Leap::*part) -> Vector3d {
+      return 2.0 * ((1.0 - share) * in.*part + share * out.*part);
+    };
+    const auto curve = [&](const Vector3d Leap::*part) -> Vector3d {
+      return 2.0 * (out.*part - in.*part);
+    };
+    const bool turns = slope(&Leap::turn).norm() > slope(&Leap::way).norm();
+    const auto faster = turns ? &Leap::turn : &Leap::way;
+    const double square = slope(faster).squaredNorm();
+    const double drift = slope(faster).dot(curve(faster)) / square;
+    const auto bend = [&](const Vector3d Leap::*part) {
+      return (curve(part) - drift * slope(part)).norm() / square;
+    };
+    return std::max(bend(&Leap::way), bend(&Leap::turn));
+  }
 
   Place from_;
   Place corner_;
   Place to_;
   std::vector<double> ways_;
 };
+
+/// At the second of three places; the path may turn back in its way, its turn, or in both.
+bool turns_back(const Place& before, const Place& here, const Place& behind) {
+  const Leap in(before, here);
+  const Leap out(here, behind);
+  return in.dot(out) < kTurnsBack * in.length() * out.length();
+}
 
 bool is_nothing(const Pose& from, const Pose& to) {
   const PoseDistance apart = distance(from, to);
@@ -229,7 +275,10 @@ base::Result<PosePath> PosePath::through(const Pose& from, std::span<const Pose>
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (!is_finite(*last) || !is_finite(poses[i])) return not_finite();
     if (is_nothing(*last, poses[i])) {
-      return base::Error{"pose " + std::to_string(i + 1) + " is where the one before is"};
+      const std::string before =
+          i == 0 ? "the path begins" : "pose " + std::to_string(i) + " is, the one before";
+      return base::Error{"pose " + std::to_string(i + 1) + " is where " + before +
+                         ": leave it out"};
     }
     places.push_back(place_of(poses[i]));
     last = &poses[i];
@@ -241,6 +290,11 @@ base::Result<PosePath> PosePath::through(const Pose& from, std::span<const Pose>
   };
   Place begin = places.front();
   for (std::size_t i = 1; i + 1 < places.size(); ++i) {
+    if (turns_back(places[i - 1], places[i], places[i + 1])) {
+      return base::Error{"at pose " + std::to_string(i) +
+                         " the path turns back by more than 170 degrees: end one motion there, and "
+                         "begin the next"};
+    }
     const Line before(places[i - 1], places[i]);
     const Line behind(places[i], places[i + 1]);
     const double room = std::min({blend, 0.5 * before.length(), 0.5 * behind.length()});
@@ -252,6 +306,17 @@ base::Result<PosePath> PosePath::through(const Pose& from, std::span<const Pose>
   }
   add_line(begin, places.back());
   return PosePath(std::move(parts));
+}
+
+double PosePath::bend(double from, double to) const {
+  double most = 0.0;
+  double begin = 0.0;
+  for (const auto& part : parts_) {
+    const double end = begin + part->length();
+    if (begin <= to && end >= from) most = std::max(most, part->most_bend());
+    begin = end;
+  }
+  return most;
 }
 
 Pose PosePath::at(double way) const {

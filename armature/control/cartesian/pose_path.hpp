@@ -36,6 +36,8 @@ class PosePath {
   /// On lines through `poses`, all but the last of which are passed by on a parabola that begins
   /// and ends `blend` before and behind it, at most half of the lines there.
   /// @param blend  [m], above 0 if there is a corner
+  /// @return the error names the pose, from 1, that is where the one before is, or at which the
+  ///         path turns back by more than 170 degrees: no curve leads round it
   static base::Result<PosePath> through(const Pose& from, std::span<const Pose> poses,
                                         double blend);
 
@@ -43,6 +45,9 @@ class PosePath {
   double length() const { return length_; }
   /// @param way  [m] from the begin on; outside: the nearest end
   Pose at(double way) const;
+  /// How much the path bends between two ways [1/m]: the tool's acceleration across it, at 1 m/s,
+  /// and that of its turn, 0.1 m for each rad. An upper bound: the most of the parts there.
+  double bend(double from, double to) const;
 
   class Part;
 

@@ -108,10 +108,69 @@ TEST(PosePath, CornersAreRoundedWithinTheBlendAndWithoutKinks) {
   EXPECT_LT(kink, 0.02) << "of the direction, in a step";
 }
 
+/// Of the second derivative by the way, of the place and of 0.1 m for each rad, by differences.
+double measured_bend(const PosePath& path, double way) {
+  constexpr double kStep = 2e-3;
+  const Pose a = path.at(way - kStep);
+  const Pose b = path.at(way);
+  const Pose c = path.at(way + kStep);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    squares += std::pow(c.position[i] - 2 * b.position[i] + a.position[i], 2);
+  }
+  const double turns = 0.1 * std::abs(distance(b, c).angle - distance(a, b).angle);
+  return std::max(std::sqrt(squares), turns) / (kStep * kStep);
+}
+
+TEST(PosePath, ItsBendBoundsItsSecondDerivative) {
+  const auto arc = PosePath::arc(at(0.2, 0, 0), {0, 0.2, 0}, at(-0.2, 0, 0, 0, 0, 1.0)).value();
+  EXPECT_NEAR(arc.bend(0.1, 0.1), 1.0 / 0.2, 1e-9);
+  EXPECT_EQ(PosePath::line(at(0, 0, 0), at(0.3, 0, 0, 0, 0, 1)).value().bend(0.0, 0.3), 0.0);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> far(-0.3, 0.3);
+  std::uniform_real_distribution<double> turn(-0.8, 0.8);
+  int bends = 0;
+  for (int k = 0; k < 60; ++k) {
+    std::vector<Pose> poses;
+    for (int i = 0; i < 4; ++i) {
+      poses.push_back(at(far(random), far(random), far(random), turn(random), 0, turn(random)));
+    }
+    const auto path = PosePath::through(at(0, 0, 0), poses, 0.05);
+    if (!path) continue;
+    for (double way = 0.003; way < path.value().length() - 0.003; way += 0.003) {
+      const double most = path.value().bend(way - 0.002, way + 0.002);
+      ASSERT_LE(measured_bend(path.value(), way), 1.1 * most + 0.05) << k << " at " << way;
+      bends += most > 1.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(bends, 1000);
+}
+
+TEST(PosePath, TurningBackIsRefusedWithThePose) {
+  const auto refusal = [](const std::vector<Pose>& poses) {
+    const auto path = PosePath::through(at(0, 0, 0), poses, 0.05);
+    return path ? "accepted" : path.error();
+  };
+  const auto turns_back = HasSubstr("at pose 2 the path turns back by more than 170 degrees");
+  EXPECT_THAT(refusal({at(0, 0.2, 0), at(0.3, 0.2, 0), at(0.1, 0.2, 0)}), turns_back);
+  EXPECT_THAT(refusal({at(0, 0.2, 0), at(0.3, 0.2, 0), at(0.1, 0.21, 0)}), turns_back);
+  EXPECT_THAT(refusal({at(0, 0, 0, 0.5), at(0, 0, 0, 1.0), at(0, 0, 0, 0.2)}), turns_back)
+      << "by its turn alone";
+  EXPECT_EQ(refusal({at(0, 0.2, 0), at(0.3, 0.2, 0), at(0.1, 0.25, 0)}), "accepted");
+  EXPECT_EQ(refusal({at(0, 0.2, 0), at(0.3, 0.2, 0), at(0.1, 0.2, 0, 0, 0, 2)}), "accepted")
+      << "its turn leads round";
+}
+
+TEST(PosePath, ADoubledPoseIsRefusedWithItsNumber) {
+  const std::vector<Pose> poses{at(0.2, 0, 0), at(0.2, 0.2, 0), at(0.2, 0.2, 0), at(0, 0.2, 0)};
+  EXPECT_THAT(PosePath::through(at(0, 0, 0), poses, 0.05).error(),
+              HasSubstr("pose 3 is where pose 2 is, the one before: leave it out"));
+}
+
 TEST(PosePath, WhatIsNoPathIsToldWhy) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(PosePath::line(at(0, 0, 0), at(0, 0, 0)).error(),
-              HasSubstr("is where the one before is"));
+              HasSubstr("pose 1 is where the path begins: leave it out"));
   EXPECT_THAT(PosePath::line(at(0, 0, 0), at(none, 0, 0)).error(), HasSubstr("not finite"));
   EXPECT_THAT(PosePath::arc(at(0, 0, 0), {1, 0, 0}, at(2, 0, 0)).error(), HasSubstr("on one line"));
   EXPECT_THAT(PosePath::arc(at(0, 0, 0), {1, 0, 0}, at(0, 0, 0)).error(), HasSubstr("on one line"));

@@ -144,6 +144,13 @@ SplineWeights SplineWeights::at(double share) {
   return weights;
 }
 
+std::array<double, 4> taught_hull(std::span<const double> points, std::size_t axes,
+                                  std::size_t knot, std::size_t axis) {
+  const auto point = [&](std::size_t k) { return points[(knot + k) * axes + axis]; };
+  return {(point(0) + 4.0 * point(1) + point(2)) / 6.0, (2.0 * point(1) + point(2)) / 3.0,
+          (point(1) + 2.0 * point(2)) / 3.0, (point(1) + 4.0 * point(2) + point(3)) / 6.0};
+}
+
 double TaughtMotion::duration_s() const {
   return static_cast<double>(points.size() / axes - 3) * kKnotSpacing_s;
 }

@@ -43,6 +43,12 @@ struct TaughtMotion {
   std::vector<double> positions_at(double time_s) const;
 };
 
+/// The four points (Bezier's) within whose hull an axis stays from a knot to the next one.
+/// @param points  control points x axes, more than knot + 3 of them
+/// @rt nonblocking, no allocation
+std::array<double, 4> taught_hull(std::span<const double> points, std::size_t axes,
+                                  std::size_t knot, std::size_t axis);
+
 /// The smooth path nearest to `samples`: least squares, with a small penalty on the second
 /// differences of the control points, which bridges gaps and forgets a sensor's noise (Eilers and
 /// Marx 1996, "Flexible Smoothing with B-splines and Penalties", equation 6).

@@ -10,6 +10,8 @@
 namespace armature::control {
 namespace {
 
+constexpr double kRest = 1e-9;  ///< [rad/s, m/s]
+
 std::vector<PathLimits> limits_of(const std::vector<OnlineTrajectory::Axis>& axes) {
   std::vector<PathLimits> limits;
   for (const auto& axis : axes) limits.push_back({axis.max_velocity, axis.max_acceleration});
@@ -38,6 +40,8 @@ std::string_view to_text(PlayRefusal refusal) {
       return "the speed must be from 0.01 to 10";
     case PlayRefusal::kNoPosition:
       return "the present positions are no place to begin";
+    case PlayRefusal::kElsewhere:
+      return "the axes do not rest where the motion begins";
   }
   return "";
 }
@@ -57,34 +61,55 @@ TaughtPlayer::TaughtPlayer(OnlineTrajectory approach, const Config& config)
       path_(limits_of(config.axes), points_in(config.longest_s)),
       start_(axes_.size(), 0.0) {}
 
-/// The path lies within the hull of its control points.
 TaughtPlayer::Answer TaughtPlayer::check(std::span<const double> points, double speed) const {
   const std::size_t count = axes_.size();
   if (!(speed >= kSlowest && speed <= kFastest)) return {PlayRefusal::kSpeed};
   if (points.size() < 4 * count || points.size() % count != 0) return {PlayRefusal::kWrongNumber};
   if (points.size() / count > path_.capacity()) return {PlayRefusal::kTooLong};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t axis = i % count;
-    if (!std::isfinite(points[i])) return {PlayRefusal::kNotFinite, axis, points[i]};
-    if (points[i] < axes_[axis].lower || points[i] > axes_[axis].upper) {
-      return {PlayRefusal::kOutsideLimits, axis, points[i]};
+    if (!std::isfinite(points[i])) return {PlayRefusal::kNotFinite, i % count, points[i]};
+  }
+  for (std::size_t knot = 0; knot + 3 < points.size() / count; ++knot) {
+    for (std::size_t axis = 0; axis < count; ++axis) {
+      for (const double place : taught_hull(points, count, knot, axis)) {
+        if (place >= axes_[axis].lower && place <= axes_[axis].upper) continue;
+        return {PlayRefusal::kOutsideLimits, axis, place};
+      }
     }
   }
   return {};
+}
+
+TaughtPlayer::Answer TaughtPlayer::play_from_here(const OnlineTrajectory::State& state,
+                                                  std::span<const double> points, double speed,
+                                                  MotionLimit* whole) {
+  if (const Answer answer = check(points, speed); !answer.accepted()) return answer;
+  find_start(points);
+  for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+    const bool moves = !state.velocities.empty() && std::abs(state.velocities[axis]) > kRest;
+    const bool here = std::abs(state.positions[axis] - start_[axis]) <= kHere;
+    if (moves || !here) return {PlayRefusal::kElsewhere, axis, state.positions[axis]};
+  }
+  const Answer answer = play(state, points, speed, whole);
+  if (answer.accepted()) rested_s_ = kSettling_s;
+  return answer;
+}
+
+void TaughtPlayer::find_start(std::span<const double> points) {
+  const SplineWeights weights = SplineWeights::at(0.0);
+  for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+    start_[axis] = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      start_[axis] += weights.position[k] * points[k * axes_.size() + axis];
+    }
+  }
 }
 
 TaughtPlayer::Answer TaughtPlayer::play(const OnlineTrajectory::State& state,
                                         std::span<const double> points, double speed,
                                         MotionLimit* whole) {
   if (const Answer answer = check(points, speed); !answer.accepted()) return answer;
-  const std::size_t count = axes_.size();
-  const SplineWeights weights = SplineWeights::at(0.0);
-  for (std::size_t axis = 0; axis < count; ++axis) {
-    start_[axis] = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      start_[axis] += weights.position[k] * points[k * count + axis];
-    }
-  }
+  find_start(points);
   whole_ = whole;
   if (!approach_.begin_at(state).accepted() ||
       !approach_.move_to({start_}, 0.0, whole_).accepted()) {

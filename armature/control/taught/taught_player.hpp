@@ -23,6 +23,7 @@ enum class PlayRefusal {
   kOutsideLimits,  ///< the path leaves the position limits of an axis
   kSpeed,          ///< the speed is not from 0.01 to 10
   kNoPosition,     ///< where the axes are is no admissible place to begin
+  kElsewhere,      ///< the axes are not at rest at the begin of the path
 };
 
 /// A few words for a message, such as "the motion leaves the limits of an axis".
@@ -39,6 +40,8 @@ class TaughtPlayer {
   static constexpr double kFastest = 10.0;
   /// At the begin of the path, so that the robot is there, too.
   static constexpr double kSettling_s = 0.5;
+  /// Of an axis at rest to the begin of a path that begins there [rad, m].
+  static constexpr double kHere = 2e-3;
 
   /// The axes, and how long a path may be.
   struct Config {
@@ -49,7 +52,7 @@ class TaughtPlayer {
   struct [[nodiscard]] Answer {
     PlayRefusal refusal = PlayRefusal::kNone;
     std::size_t axis = kNoAxis;  ///< the first one it is about, if it is about one
-    double found = 0.0;          ///< of kOutsideLimits: the position
+    double found = 0.0;          ///< of kOutsideLimits and kElsewhere: the position
 
     bool accepted() const { return refusal == PlayRefusal::kNone; }
   };
@@ -67,6 +70,11 @@ class TaughtPlayer {
   /// @rt nonblocking, no allocation, O(points)
   Answer play(const OnlineTrajectory::State& state, std::span<const double> points, double speed,
               MotionLimit* whole);
+
+  /// The same from where the axes rest: refuses what begins elsewhere, and waits for nothing.
+  /// @rt nonblocking, no allocation, O(points)
+  Answer play_from_here(const OnlineTrajectory::State& state, std::span<const double> points,
+                        double speed, MotionLimit* whole);
 
   /// Goes on by `period`, >= 0.
   /// @rt nonblocking, no allocation, O(axes)
@@ -98,6 +106,7 @@ class TaughtPlayer {
   enum class Stage { kIdle, kApproach, kPath };
   TaughtPlayer(OnlineTrajectory approach, const Config& config);
 
+  void find_start(std::span<const double> points);
   double passed_share() const;
   void begin_path();
 

@@ -247,5 +247,43 @@ TEST_F(Played, RefusesWhatCannotBePlayedAndNothingMoves) {
   EXPECT_FALSE(player.under_way());
 }
 
+/// From `from` on at an even speed, from its begin to its end, as a jog is.
+Vector even_points(double from, double speed, int count = 40) {
+  Vector points;
+  for (int k = 0; k < count; ++k) {
+    points.push_back(from + (k - 1) * kKnotSpacing_s * speed);
+    points.push_back(0.0);
+  }
+  return points;
+}
+
+TEST_F(Played, APathMayEndAndBeginAtALimit) {
+  EXPECT_TRUE(player.check(even_points(-2.0, 1.0), 1.0).accepted())
+      << "a control point lies before its begin";
+  const double length = 37 * kKnotSpacing_s;
+  EXPECT_TRUE(player.check(even_points(1.999999 - length, 1.0), 1.0).accepted());
+  EXPECT_EQ(player.check(even_points(2.01 - length, 1.0), 1.0).refusal,
+            PlayRefusal::kOutsideLimits);
+}
+
+TEST_F(Played, FromHereItBeginsAtOnceAndOnlyAtRestAtTheBegin) {
+  const Vector points = even_points(0.5, 0.5);
+  const Vector here{0.5, 0.0};
+  const auto refusal = [&](const Vector& at, const Vector& velocities = {}) {
+    return player.play_from_here({at, velocities}, points, 1.0, nullptr);
+  };
+  EXPECT_EQ(refusal({0.51, 0.0}).refusal, PlayRefusal::kElsewhere);
+  EXPECT_EQ(refusal({0.5, 0.01}).axis, 1u);
+  EXPECT_EQ(refusal(here, {0.0, 0.1}).refusal, PlayRefusal::kElsewhere) << "it moves";
+  EXPECT_EQ(refusal({std::nan(""), 0.0}).refusal, PlayRefusal::kElsewhere);
+  EXPECT_FALSE(player.under_way());
+  ASSERT_TRUE(refusal(here).accepted());
+  motion = {.axes = 2, .points = points, .largest_deviation = 0.0};
+  for (int i = 0; i < 20; ++i) cycle();
+  EXPECT_TRUE(player.on_path());
+  play_out();
+  EXPECT_LT(furthest, 2e-4) << "and the nearest place is looked for in steps";
+}
+
 }  // namespace
 }  // namespace armature::control

@@ -11,8 +11,6 @@ namespace {
 
 /// Of an acceleration, that the path itself may need; the rest changes the speed along it.
 constexpr double kShareOfPath = 0.8;
-/// A stop from the speed of the teaching takes a tenth of a second at least [1/s].
-constexpr double kHardest = 10.0;
 /// Kept of a limit of the whole robot, which is asked at places of the path only.
 constexpr double kMarginOfRobot = 0.98;
 /// Below it nothing moves in any time that counts.

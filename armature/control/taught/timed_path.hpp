@@ -25,6 +25,9 @@ struct PathLimits {
 /// One thread uses it.
 class TimedPath {
  public:
+  /// Of the speed's change [1/s]: a stop from that of the teaching takes a tenth of a second.
+  static constexpr double kHardest = 10.0;
+
   /// @param capacity  the most control points of a path
   TimedPath(std::vector<PathLimits> limits, std::size_t capacity);
 

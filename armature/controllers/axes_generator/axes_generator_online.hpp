@@ -10,9 +10,9 @@
 #include "armature/component/author.hpp"
 #include "armature/control/online/online_trajectory.hpp"
 #include "armature/controllers/axes_generator/generator_of_axes.hpp"
-#include "armature/controllers/axes_generator/held_jog.hpp"
 #include "armature/controllers/axes_generator/peers_limit.hpp"
 #include "armature/controllers/base/changes.hpp"
+#include "armature/controllers/base/held_jog.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
 namespace armature::controllers {

@@ -8,53 +8,44 @@
 #include <utility>
 
 #include "armature/base/as_reason.hpp"
+#include "armature/base/quoted.hpp"
+#include "armature/component/check_of_threads.hpp"
+#include "armature/controllers/cartesian/pose_arguments.hpp"
 #include "armature/rt/guard.hpp"
 
 namespace armature::controllers {
 
 using component::CommandStage;
 using component::Outcome;
-using control::Pose;
 using control::PosePath;
 
 namespace {
 
 constexpr base::Duration kLongestPlannersPeriod = std::chrono::milliseconds(20);
-constexpr std::size_t kNumbersOfAPose = 6;
 constexpr std::size_t kFewestJoints = 6;
+constexpr double kAtRest = 1e-9;  // rad/s
 
-double rounded(double number) { return std::round(number * 1e3) / 1e3; }
-
-base::Result<std::vector<Pose>> read_poses_of(const std::vector<double>& numbers) {
-  if (numbers.empty() || numbers.size() % kNumbersOfAPose != 0) {
-    return base::Error{"found " + std::to_string(numbers.size()) +
-                       " numbers, expected six for each pose: x y z roll pitch yaw"};
-  }
-  if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); })) {
-    return base::Error{"a number of the pose is not finite"};
-  }
-  std::vector<Pose> poses;
-  for (std::size_t i = 0; i < numbers.size(); i += kNumbersOfAPose) {
-    control::PoseNumbers one;
-    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(i), one.size(), one.begin());
-    poses.push_back(control::pose_of(one));
-  }
-  return poses;
-}
-
-base::Result<Pose> read_pose_of(const std::vector<double>& numbers) {
-  auto poses = read_poses_of(numbers);
-  if (!poses) return base::Error{poses.error()};
-  if (poses.value().size() == 1) return poses.value().front();
-  return base::Error{"found " + std::to_string(poses.value().size()) + " poses, expected one"};
-}
+double in_thousandths(double number) { return std::round(number * 1e3) / 1e3; }
 
 }  // namespace
 
 void PathPlanner::on_check(component::Check& check) const {
-  if (period() > base::Duration::zero() && period() <= kLongestPlannersPeriod) return;
-  check.error("the period must be above 0 and at most 20 ms",
-              "give it activity: {periodic: 10 ms, scheduler: other}");
+  const char* const kHint = "give it activity: {periodic: 10 ms, scheduler: other}";
+  if (period() <= base::Duration::zero() || period() > kLongestPlannersPeriod) {
+    check.error("the period must be above 0 and at most 20 ms", kHint);
+  }
+  const auto* const threads = component::CheckOfThreads::of(check);
+  if (threads == nullptr) return;
+  if (threads->is_real_time()) {
+    check.error("it plans for tens of milliseconds, and its thread is a real-time one", kHint);
+    return;
+  }
+  const auto* const player = check.target_of(play_path_);
+  if (player != nullptr && threads->shares_thread_with(player->owner())) {
+    check.error("it plans for tens of milliseconds in the thread of the generator " +
+                    base::quoted(player->owner().name()),
+                "give it a thread of its own");
+  }
 }
 
 Outcome PathPlanner::on_configure() {
@@ -104,25 +95,28 @@ std::string PathPlanner::objection_to_limits() {
 }
 
 Outcome PathPlanner::on_start() {
-  motion_ = component::CommandHandle(component::CallStatus::kNotConnected);
+  jog_end_.assign({});
   return component::accepted();
 }
+
+/// Commands under way are cancelled before, and those that were sent last may still brake.
+void PathPlanner::on_stop() { motion_.cancel(); }
 
 void PathPlanner::on_update() {
   const rt::PermitScope in_a_thread_of_its_own;
   if (line_.active()) follow(line_);
   if (arc_.active()) follow(arc_);
   if (path_.active()) follow(path_);
+  if (jog_.active()) follow(jog_);  // the generator lets go of it, and it ends at rest
 }
 
 Outcome PathPlanner::begin_line(const Vector& pose, double speed) {
   const rt::PermitScope in_a_thread_of_its_own;
   const auto to = read_pose_of(pose);
   if (!to) return component::refused(to.error());
-  const auto from = desired_.read();
-  if (!from)
-    return component::refused("nAxesDesiredPosition has no new value: its writer runs first");
-  return play(PosePath::line(arm_->pose_at(from.value), to.value()), speed);
+  const auto begin = begin_at_rest();
+  if (!begin) return component::refused(begin.error());
+  return play(begin.value(), PosePath::line(arm_->pose_at(begin.value()), to.value()), speed);
 }
 
 Outcome PathPlanner::begin_arc(const Vector& via, const Vector& pose, double speed) {
@@ -133,10 +127,10 @@ Outcome PathPlanner::begin_arc(const Vector& via, const Vector& pose, double spe
     return component::refused("via has " + std::to_string(via.size()) +
                               " numbers, expected three: x y z");
   }
-  const auto from = desired_.read();
-  if (!from)
-    return component::refused("nAxesDesiredPosition has no new value: its writer runs first");
-  return play(PosePath::arc(arm_->pose_at(from.value), {via[0], via[1], via[2]}, to.value()),
+  const auto begin = begin_at_rest();
+  if (!begin) return component::refused(begin.error());
+  return play(begin.value(),
+              PosePath::arc(arm_->pose_at(begin.value()), {via[0], via[1], via[2]}, to.value()),
               speed);
 }
 
@@ -144,19 +138,40 @@ Outcome PathPlanner::begin_path(const Vector& poses, double blend, double speed)
   const rt::PermitScope in_a_thread_of_its_own;
   const auto to = read_poses_of(poses);
   if (!to) return component::refused(to.error());
-  const auto from = desired_.read();
-  if (!from)
-    return component::refused("nAxesDesiredPosition has no new value: its writer runs first");
-  return play(PosePath::through(arm_->pose_at(from.value), to.value(), blend), speed);
+  const auto begin = begin_at_rest();
+  if (!begin) return component::refused(begin.error());
+  return play(begin.value(), PosePath::through(arm_->pose_at(begin.value()), to.value(), blend),
+              speed);
+}
+
+/// One reading for all that is planned: a path begins only where the reference rests.
+base::Result<PathPlanner::Vector> PathPlanner::begin_at_rest() {
+  if (!motion_.ended()) return base::Error{"a motion is under way: cancel it first"};
+  const auto velocity = desired_velocity_.read();
+  const auto position = desired_.read();
+  if (!velocity || !position) {
+    return base::Error{
+        "nAxesDesiredPosition or nAxesDesiredVelocity has no new value: the generator runs first"};
+  }
+  const auto moves = [](double each) { return !(std::abs(each) <= kAtRest); };
+  if (std::ranges::any_of(velocity.value, moves)) {
+    return base::Error{"the joints move, or brake: wait until they rest"};
+  }
+  return Vector(position.value);
+}
+
+/// Whether the reference has left the place from which a motion was planned meanwhile.
+bool PathPlanner::has_left(const Vector& begin) {
+  const auto now = begin_at_rest();
+  if (!now) return true;
+  for (std::size_t i = 0; i < begin.size(); ++i) {
+    if (std::abs(now.value()[i] - begin[i]) > kAtRest) return true;
+  }
+  return false;
 }
 
 /// What it plans is the generator's to play: that arms nothing and keeps the joints' limits.
-Outcome PathPlanner::play(const Path& path, double speed) {
-  const int under_way =
-      (line_.active() ? 1 : 0) + (arc_.active() ? 1 : 0) + (path_.active() ? 1 : 0);
-  if (under_way > 0 && !motion_.ended()) {
-    return component::refused("a motion is under way: cancel it first");
-  }
+Outcome PathPlanner::play(const Vector& begin, const Path& path, double speed) {
   if (!path) return component::refused(path.error());
   if (!(speed >= 0.0) || speed > velocity_) {
     return component::refused("the speed is " + std::to_string(speed) +
@@ -165,13 +180,52 @@ Outcome PathPlanner::play(const Path& path, double speed) {
   }
   control::CartesianLimits limits = limits_;
   if (speed > 0.0) limits.velocity = speed;
-  const auto plan = control::plan_cartesian(*arm_, path.value(), desired_.read().value, limits);
+  const auto plan = control::plan_cartesian(*arm_, path.value(), begin, limits);
   if (!plan) return component::refused(plan.error());
-  log_info("{} m in {} s, within {} mm of the path", rounded(path.value().length()),
-           rounded(plan.value().duration_s), rounded(1000.0 * plan.value().largest_deviation));
-  motion_ = play_path_.send(plan.value().points, plan.value().speed);
+  log_info("{} m in {} s, within {} mm of the path", in_thousandths(path.value().length()),
+           in_thousandths(plan.value().duration_s),
+           in_thousandths(1000.0 * plan.value().largest_deviation));
+  return send(play_path_, begin, plan.value());
+}
+
+Outcome PathPlanner::send(Caller& caller, const Vector& begin, const control::CartesianPlan& plan) {
+  if (has_left(begin)) return component::refused("the joints moved while the path was planned");
+  motion_ = caller.send(plan.points, plan.speed);
   if (motion_.stage() == CommandStage::kRefused) return component::refused(motion_.reason());
   return component::accepted();
+}
+
+/// In the axes of the base or of the tool, as far as the joints get.
+Outcome PathPlanner::begin_jog(int axis, double velocity) {
+  const rt::PermitScope in_a_thread_of_its_own;
+  const auto begin = begin_at_rest();
+  if (!begin) return component::refused(begin.error());
+  const auto frame = read_frame_of(jog_frame_.get());
+  if (!frame) return component::refused(frame.error());
+  const ToolAxis along{axis, velocity, frame.value()};
+  const double most = along.turns() ? turning_.get() : velocity_.get();
+  if (std::string wrong = objection_to(along, most); !wrong.empty()) {
+    return component::refused(wrong);
+  }
+  control::CartesianLimits limits = limits_;
+  limits.velocity = way_of(along);
+  const auto line = line_along(arm_->pose_at(begin.value()), along);
+  if (!line) return component::refused(line.error());
+  auto jog = control::plan_jog(*arm_, line.value(), begin.value(), limits);
+  if (!jog) return component::refused(jog.error());
+  if (Outcome outcome = send(jog_path_, begin.value(), jog.value().plan); !outcome) return outcome;
+  jogging_.begin(axis, velocity, time());
+  jog_end_.assign(component::Reason(jog.value().end.empty() ? longest_text(along)
+                                                            : std::string_view(jog.value().end)));
+  return component::accepted();
+}
+
+/// Told to the generator, which brakes where nobody tells it, whatever this thread does meanwhile.
+bool PathPlanner::keep_jogging(int axis, double velocity) {
+  if (!jog_.active() || !jogging_.renew(axis, velocity, time())) return false;
+  if (motion_.stage() == CommandStage::kQueued) return true;  // it begins as if renewed
+  const auto answer = keep_jogging_path_();
+  return answer && answer.value;
 }
 
 PathPlanner::Vector PathPlanner::pose() {

@@ -18,7 +18,8 @@ Outcome AxesGeneratorTaught::set_up() {
   auto made = TaughtPlayer::make({limits().axes, longest_});
   if (!made) return component::refused(made.error());
   player_ = std::move(made.value());
-  play_.prepare(Vector(player_->capacity() * limits().axes.size()), 1.0);
+  const Vector longest(player_->capacity() * limits().axes.size());
+  for (auto* const each : {&play_, &play_from_here_, &jog_path_}) each->prepare(longest, 1.0);
   longest_changed_.take();
   return component::accepted();
 }
@@ -39,15 +40,18 @@ void AxesGeneratorTaught::on_update() {
 
 void AxesGeneratorTaught::play_on() {
   player_->step(time() - stepped_at_);
+  if (jog_path_.active() && held_.let_go(time())) player_->stop();
   stepped_at_ = time();
   tell_begin();
   write_desired(player_->positions(), player_->velocities(), player_->accelerations());
   tell_progress(player_->progress(), player_->remaining_s());
-  if (play_.active()) play_.report(player_->progress());
-  if (player_->under_way()) return;
-  if (!player_->possible()) {
-    play_.fail("a peer's motionLimitUsed allows no speed somewhere on the path");
+  for (auto* const each : {&play_, &play_from_here_, &jog_path_}) {
+    if (each->active()) each->report(player_->progress());
+    if (!player_->under_way() && !player_->possible()) {
+      each->fail("a peer's motionLimitUsed allows no speed somewhere on the path");
+    }
   }
+  if (player_->under_way()) return;
   take_over();
 }
 
@@ -76,8 +80,13 @@ void AxesGeneratorTaught::follow_hand() {
 }
 
 Outcome AxesGeneratorTaught::may_begin() {
-  if (play_.active()) return component::refused("a taught motion is under way: cancel it first");
+  if (is_playing()) return component::refused("a taught motion is under way: cancel it first");
   return may_take_axes();
+}
+
+bool AxesGeneratorTaught::is_playing(const PlayCommand* but) const {
+  const auto plays = [but](const PlayCommand& each) { return &each != but && each.active(); };
+  return plays(play_) || plays(play_from_here_) || plays(jog_path_);
 }
 
 Outcome AxesGeneratorTaught::may_take_axes() {
@@ -91,19 +100,51 @@ Outcome AxesGeneratorTaught::may_take_axes() {
 }
 
 Outcome AxesGeneratorTaught::begin_path(const Vector& points, double speed) {
-  if (is_commanded()) return component::refused("a motion is under way: cancel it first");
+  if (const Outcome outcome = may_play(play_, points, speed); !outcome) return outcome;
+  return begun(player_->play(now(), points, speed, peers_limit()), speed);
+}
+
+Outcome AxesGeneratorTaught::play_from_here(const PlayCommand& command, const Vector& points,
+                                            double speed) {
+  if (player_->under_way() && !is_playing(&command)) {
+    return component::refused("the axes still brake: wait until they rest");
+  }
+  if (const Outcome outcome = may_play(command, points, speed); !outcome) return outcome;
+  return begun(player_->play_from_here(now(), points, speed, peers_limit()), speed);
+}
+
+Outcome AxesGeneratorTaught::begin_jog_path(const Vector& points, double speed) {
+  const Outcome outcome = play_from_here(jog_path_, points, speed);
+  if (outcome) held_.begin(0, speed, time());
+  return outcome;
+}
+
+bool AxesGeneratorTaught::keep_jogging_path() {
+  return jog_path_.active() && held_.renew(0, held_.velocity(), time());
+}
+
+Outcome AxesGeneratorTaught::may_play(const PlayCommand& command, const Vector& points,
+                                      double speed) {
+  if (is_commanded() || is_playing(&command)) {
+    return component::refused("a motion is under way: cancel it first");
+  }
   if (const auto answer = player_->check(points, speed); !answer.accepted()) {
     return component::refused(refusal_of(answer));
   }
   if (const Outcome outcome = may_take_axes(); !outcome) return outcome;
   step_to_now();
-  const auto answer = player_->play(
-      {trajectory().positions(), trajectory().velocities(), trajectory().accelerations()}, points,
-      speed, peers_limit());
+  return component::accepted();
+}
+
+Outcome AxesGeneratorTaught::begun(const TaughtPlayer::Answer& answer, double speed) {
   if (!answer.accepted()) return component::refused(refusal_of(answer));
   speed_ = speed;
   told_ = false;
   return component::accepted();
+}
+
+control::OnlineTrajectory::State AxesGeneratorTaught::now() {
+  return {trajectory().positions(), trajectory().velocities(), trajectory().accelerations()};
 }
 
 void AxesGeneratorTaught::on_switched(const ModeName& mode) {
@@ -129,7 +170,7 @@ void AxesGeneratorTaught::stop() {
 }
 
 void AxesGeneratorTaught::end_commands(std::string_view why) {
-  play_.fail(why);
+  for (auto* const each : {&play_, &play_from_here_, &jog_path_}) each->fail(why);
   AxesGeneratorOnline::end_commands(why);
 }
 
@@ -139,6 +180,7 @@ Reason AxesGeneratorTaught::refusal_of(const TaughtPlayer::Answer& answer) const
     append_number(why.append("axis "), static_cast<double>(answer.axis + 1)).append(": ");
   }
   why.append(control::to_text(answer.refusal));
+  if (answer.refusal == PlayRefusal::kElsewhere) append_number(why.append(": at "), answer.found);
   if (answer.refusal == PlayRefusal::kOutsideLimits) {
     append_number(why.append(": "), answer.found).append(", expected ");
     append_number(why, limit_of(lower_, answer.axis)).append(" to ");

@@ -25,6 +25,11 @@ namespace armature::controllers {
 /// that is not from 0.01 to 10, a motion under way, a robot that is not armed. Cancel and Stop
 /// brake on the path; Settle, Disarm and resetPosition end it as they end any motion.
 ///
+/// `playFromHere` plays a path that begins where the axes rest, at once; one that begins elsewhere,
+/// or while they move, is refused. `jogPath` does the same as long as somebody renews it by
+/// `keepJoggingPath`: 150 ms of the application's clock after the last renewal it brakes on the
+/// path, as `jog` does. A renewal never begins one, and goes on with none that brakes.
+///
 /// With the application's Modes among its peers, and while the mode `hand_mode` is the present one,
 /// the desired position is the measured one, anew in each cycle, and no motion begins: whatever
 /// mode comes next takes over where the hand has left the robot.
@@ -35,6 +40,7 @@ class AxesGeneratorTaught final : public AxesGeneratorOnline {
 
  private:
   using ModeName = base::FixedText<63>;  ///< as exec::Modes has it
+  using PlayCommand = component::Command<const Vector&, double>;
 
   component::Outcome on_start() override;
   void on_update() override;
@@ -47,6 +53,17 @@ class AxesGeneratorTaught final : public AxesGeneratorOnline {
 
   component::Outcome may_take_axes();
   component::Outcome begin_path(const Vector& points, double speed);
+  component::Outcome begin_from_here(const Vector& points, double speed) {
+    return play_from_here(play_from_here_, points, speed);
+  }
+  component::Outcome play_from_here(const PlayCommand& command, const Vector& points, double speed);
+  component::Outcome begin_jog_path(const Vector& points, double speed);
+  bool keep_jogging_path();
+  component::Outcome may_play(const PlayCommand& command, const Vector& points, double speed);
+  component::Outcome begun(const control::TaughtPlayer::Answer& answer, double speed);
+  /// One of the commands that play, `but` one.
+  bool is_playing(const PlayCommand* but = nullptr) const;
+  control::OnlineTrajectory::State now();
   component::Reason refusal_of(const control::TaughtPlayer::Answer& answer) const;
   bool played() { return !player_->under_way(); }
   void brake() { player_->stop(); }
@@ -69,14 +86,33 @@ class AxesGeneratorTaught final : public AxesGeneratorOnline {
                                               "another mode runs",
                                               component::optional,
                                               component::leads_to_nothing()};
-  component::Command<const Vector&, double> play_{
+  PlayCommand play_{this,
+                    "playPath",
+                    component::serve<&AxesGeneratorTaught::begin_path>,
+                    "moves to the begin of a path and plays it; 1 is the speed of the teaching",
+                    component::args("control points of all axes, each 40 ms [rad]", "speed"),
+                    component::done_when<&AxesGeneratorTaught::played>,
+                    component::cancelled_by<&AxesGeneratorTaught::brake>};
+  PlayCommand play_from_here_{
       this,
-      "playPath",
-      component::serve<&AxesGeneratorTaught::begin_path>,
-      "moves to the begin of a path and plays it; 1 is the speed of the teaching",
+      "playFromHere",
+      component::serve<&AxesGeneratorTaught::begin_from_here>,
+      "plays a path that begins where the axes rest; 1 is the speed of the teaching",
       component::args("control points of all axes, each 40 ms [rad]", "speed"),
       component::done_when<&AxesGeneratorTaught::played>,
       component::cancelled_by<&AxesGeneratorTaught::brake>};
+  PlayCommand jog_path_{
+      this,
+      "jogPath",
+      component::serve<&AxesGeneratorTaught::begin_jog_path>,
+      "plays a path that begins where the axes rest as long as keepJoggingPath renews it",
+      component::args("control points of all axes, each 40 ms [rad]", "speed"),
+      component::done_when<&AxesGeneratorTaught::played>,
+      component::cancelled_by<&AxesGeneratorTaught::brake>};
+  component::Operation<bool()> keep_jogging_path_{
+      this, "keepJoggingPath", component::serve<&AxesGeneratorTaught::keep_jogging_path>,
+      "renews jogPath; false: it is not under way, or brakes", component::in_own_thread};
+  HeldJog held_;
   Changes longest_changed_{longest_};
   std::optional<control::TaughtPlayer> player_;
   double speed_ = 1.0;  ///< that was asked for

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "armature/component/check.hpp"
+#include "armature/component/check_of_threads.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
@@ -60,6 +61,7 @@ class PlannedWiring {
     for (const CallPlan& call : plan.calls) targets.add(call.requirement, call.operation);
     for (const SubscriptionPlan& told : plan.subscriptions) sources.add(told.handler, told.event);
     for (const Component* component : components) by_name[component->name()] = component;
+    for (std::size_t i = 0; i < components.size(); ++i) threads[components[i]] = plan.thread_of[i];
     writers.close();
     readers.close();
     delayed.close();
@@ -69,6 +71,7 @@ class PlannedWiring {
 
   const std::vector<Component*> components;
   std::unordered_map<std::string_view, const Component*> by_name;
+  std::unordered_map<const Component*, std::size_t> threads;  ///< number of each one's
   Links<InputPortBase, OutputPortBase> writers;
   Links<OutputPortBase, InputPortBase> readers;
   Links<component::OperationCallerBase, component::OperationBase> targets;
@@ -80,15 +83,11 @@ class PlannedWiring {
 using Answers = std::map<std::pair<const void*, std::type_index>, std::any>;
 
 /// One component's view of it.
-class PlannedCheck final : public component::Check {
+class PlannedCheck final : public component::Check, public component::CheckOfThreads {
  public:
   PlannedCheck(const ComponentEntry& entry, const PlannedWiring& wiring, Answers& answers,
-               std::vector<HardwarePlan>& hardware, base::Diagnostics& diagnostics)
-      : entry_(entry),
-        wiring_(wiring),
-        answers_(answers),
-        hardware_(hardware),
-        diagnostics_(diagnostics) {}
+               Plan& plan, base::Diagnostics& diagnostics)
+      : entry_(entry), wiring_(wiring), answers_(answers), plan_(plan), diagnostics_(diagnostics) {}
 
   void error(std::string message, std::string hint) override {
     diagnostics_.error(entry_.where, named(message), std::move(hint));
@@ -97,7 +96,7 @@ class PlannedCheck final : public component::Check {
     diagnostics_.warning(entry_.where, named(message), std::move(hint));
   }
   void drives_hardware(std::string bus) override {
-    hardware_.push_back({entry_.component.get(), std::move(bus)});
+    plan_.hardware.push_back({entry_.component.get(), std::move(bus)});
   }
   const std::vector<Component*>& components() const override { return wiring_.components; }
   std::vector<const Component*> peers() const override {
@@ -125,6 +124,13 @@ class PlannedCheck final : public component::Check {
   const component::EventBase* source_of(const component::EventHandlerBase& handler) const override {
     return wiring_.sources.one_of(handler);
   }
+  bool is_real_time() const override {
+    const std::size_t thread = wiring_.threads.at(entry_.component.get());
+    return plan_.threads[thread].activity.scheduler != Activity::Scheduler::kOther;
+  }
+  bool shares_thread_with(const Component& other) const override {
+    return wiring_.threads.at(&other) == wiring_.threads.at(entry_.component.get());
+  }
 
  private:
   std::any& answer(const void* about, std::type_index type) const override {
@@ -137,7 +143,7 @@ class PlannedCheck final : public component::Check {
   const ComponentEntry& entry_;
   const PlannedWiring& wiring_;
   Answers& answers_;
-  std::vector<HardwarePlan>& hardware_;
+  Plan& plan_;
   base::Diagnostics& diagnostics_;
 };
 
@@ -157,7 +163,7 @@ void check_components(const Blueprint& blueprint, Plan& plan, base::Diagnostics&
   const PlannedWiring wiring(blueprint, plan);
   Answers answers;
   for (const ComponentEntry& entry : blueprint.components) {
-    PlannedCheck check(entry, wiring, answers, plan.hardware, diagnostics);
+    PlannedCheck check(entry, wiring, answers, plan, diagnostics);
     check_component(*entry.component, check);
   }
 }

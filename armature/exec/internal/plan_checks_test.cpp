@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/check.hpp"
+#include "armature/component/check_of_threads.hpp"
 #include "armature/component/face.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
@@ -115,6 +116,34 @@ TEST(PlanChecks, ThePlanKnowsWhoDrivesHardware) {
   ASSERT_EQ(plan.hardware.size(), 1U);
   EXPECT_EQ(plan.hardware[0].component, &checking);
   EXPECT_EQ(plan.hardware[0].bus, "can0");
+}
+
+TEST(PlanChecks, AComponentKnowsWhatItsThreadIs) {
+  Blueprint blueprint;
+  const Counter& slow = blueprint.add<Counter>("Slow", Activity::periodic(10ms));
+  const auto look = [&](bool real_time) {
+    return [&slow, real_time](Check& check) {
+      const auto* threads = component::CheckOfThreads::of(check);
+      ASSERT_NE(threads, nullptr);
+      EXPECT_EQ(threads->is_real_time(), real_time);
+      EXPECT_FALSE(threads->shares_thread_with(slow));
+    };
+  };
+  blueprint.add<Checking>("Other", Activity::periodic(10ms)).look = look(false);
+  Activity urgent = Activity::periodic(2ms, 80);
+  urgent.scheduler = Activity::Scheduler::kRealtime;
+  blueprint.add<Checking>("Urgent", urgent).look = look(true);
+  urgent.scheduler = Activity::Scheduler::kDeadline;
+  urgent.priority = 0;
+  urgent.budget = 200us;
+  blueprint.add<Checking>("Deadline", urgent).look = look(true);
+  Activity together = Activity::periodic(10ms);
+  together.thread = "shared";
+  const Checking& one = blueprint.add<Checking>("One", together);
+  blueprint.add<Checking>("Two", together).look = [&one](Check& check) {
+    EXPECT_TRUE(component::CheckOfThreads::of(check)->shares_thread_with(one));
+  };
+  EXPECT_EQ(problems_of(blueprint), "");
 }
 
 TEST(PlanChecks, AnExceptionIsAMistakeOfTheComponent) {

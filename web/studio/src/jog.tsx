@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useState } from "react";
 import type { Component } from "./checked.ts";
+import { message_of } from "./backend.ts";
 import { useHeld } from "./held.ts";
 import { press_jog } from "./jogging.ts";
+import { inspector } from "./run.ts";
 import { fixed_text, watch } from "./values.ts";
 
 const kSlow = 0.1;  ///< of the largest velocity, to begin with
@@ -20,24 +22,42 @@ function slow(text: string): number {
   return numbers.length > 0 ? Number((kSlow * Math.min(...numbers)).toPrecision(2)) : kSlow;
 }
 
-/** Two buttons for each axis of a generator: it moves as long as one of them is held. */
+/** An axis that is jogged: its name, and by which of the speeds. */
+interface Axis { name: string; unit: "rad/s" | "m/s" }
+
+const kToolAxes: readonly Axis[] = [
+  ...["x", "y", "z"].map((name): Axis => ({ name: `Along ${name}`, unit: "m/s" })),
+  ...["x", "y", "z"].map((name): Axis => ({ name: `About ${name}`, unit: "rad/s" })),
+];
+
+/** It moves a tool, in the axes of the base or of the tool. */
+const moves_tool = ({ properties }: Component): boolean => properties.some((one) => one.name === "jog_frame");
+
+function axes_of(component: Component): readonly Axis[] {
+  if (moves_tool(component)) return kToolAxes;
+  const count = Math.max(1, Number(property(component, "num_axes")) || 1);
+  return Array.from({ length: count }, (_, i) => ({ name: `Axis ${i + 1}`, unit: "rad/s" }));
+}
+
+/** Two buttons for each axis of a generator or a tool: it moves as long as one of them is held. */
 export function Jog({ component }: { component: Component }) {
-  const [speed, set_speed] = useState(() => String(slow(property(component, "max_vel"))));
+  const tool = moves_tool(component);
+  const [turning, set_turning] = useState(() => String(slow(property(component, tool ? "max_tool_turning" : "max_vel"))));
+  const [along, set_along] = useState(() => String(slow(property(component, "max_tool_velocity"))));
   const [why, set_why] = useState("");
   const positions = usePositions(component);
-  const axes = Math.max(1, Number(property(component, "num_axes")) || 1);
-  const wanted = Number(speed);
+  const wanted = { "rad/s": Number(turning), "m/s": Number(along) };
   return (
     <fieldset className="jog">
       <legend>{`${component.name}: jog`}</legend>
-      <label className="row">Speed
-        <input inputMode="decimal" size={6} value={speed} aria-invalid={!(wanted > 0)} onChange={(event) => set_speed(event.target.value)} /> rad/s
-      </label>
-      {Array.from({ length: axes }, (_, i) => (
-        <div key={i} className="row" role="group" aria-label={`${component.name} axis ${i + 1}`}>
-          <span>{`Axis ${i + 1}`}</span>
-          <JogButton component={component.name} axis={i + 1} sign={-1} speed={wanted} tell={set_why} />
-          <JogButton component={component.name} axis={i + 1} sign={1} speed={wanted} tell={set_why} />
+      {tool && <Frame component={component} tell={set_why} />}
+      {tool && <Speed unit="m/s" text={along} set={set_along} />}
+      <Speed unit="rad/s" text={turning} set={set_turning} />
+      {axes_of(component).map(({ name, unit }, i) => (
+        <div key={name} className="row" role="group" aria-label={`${component.name} axis ${i + 1}`}>
+          <span>{name}</span>
+          <JogButton component={component.name} name={name} axis={i + 1} sign={-1} speed={wanted[unit]} tell={set_why} />
+          <JogButton component={component.name} name={name} axis={i + 1} sign={1} speed={wanted[unit]} tell={set_why} />
           <output>{positions[i] === undefined ? "" : `${fixed_text(positions[i])} rad`}</output>
         </div>
       ))}
@@ -46,10 +66,34 @@ export function Jog({ component }: { component: Component }) {
   );
 }
 
-function JogButton({ component, axis, sign, speed, tell }: { component: string; axis: number; sign: 1 | -1; speed: number; tell: (why: string) => void }) {
+function Speed({ unit, text, set }: { unit: string; text: string; set: (text: string) => void }) {
+  return (
+    <label className="row">Speed
+      <input inputMode="decimal" size={6} value={text} aria-invalid={!(Number(text) > 0)} onChange={(event) => set(event.target.value)} /> {unit}
+    </label>
+  );
+}
+
+/** In whose axes a tool is jogged: from the next jog on. */
+function Frame({ component, tell }: { component: Component; tell: (why: string) => void }) {
+  const [frame, set_frame] = useState(() => property(component, "jog_frame"));
+  const choose = (wanted: string): void => {
+    inspector().write(`${component.name}.jog_frame`, wanted).then(() => set_frame(wanted), (error: unknown) => tell(message_of(error)));
+  };
+  return (
+    <label className="row">In the axes of the
+      <select value={frame} onChange={(event) => choose(event.target.value)}>
+        <option value="base">base</option>
+        <option value="tool">tool</option>
+      </select>
+    </label>
+  );
+}
+
+function JogButton({ component, name, axis, sign, speed, tell }: { component: string; name: string; axis: number; sign: 1 | -1; speed: number; tell: (why: string) => void }) {
   const { held, props } = useHeld(() => press_jog(component, axis, sign * speed, tell));
   return (
-    <button type="button" className={`hold ${held ? "held" : ""}`} disabled={!(speed > 0)} aria-label={`axis ${axis} ${sign < 0 ? "back" : "forth"}`}
+    <button type="button" className={`hold ${held ? "held" : ""}`} disabled={!(speed > 0)} aria-label={`${name.toLowerCase()} ${sign < 0 ? "back" : "forth"}`}
       title="Hold it: mouse, finger, Space or Enter" {...props}>{sign < 0 ? "−" : "+"}</button>
   );
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An axis moves as long as somebody holds on to it: the run ends what is not renewed for 150 ms.
+// An axis, of joints or of a tool, moves as long as somebody holds on to it: the run ends what is not renewed for 150 ms.
 import { message_of } from "./backend.ts";
 import { inspector } from "./run.ts";
 

@@ -337,6 +337,26 @@ page_test("an axis jogs as long as its button is held, by mouse and by keyboard"
   await page.keyboard.up("Space");
 });
 
+page_test("a tool jogs along and about the axes of the base or the tool, each with its speed", "tool", async (page) => {
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.getByRole("tab", { name: "Operate" }).click();
+  await page.getByText("Planner: jog").waitFor();
+  const hold = async (name) => {
+    await page.getByRole("button", { name }).hover();
+    await page.mouse.down();
+    await page.waitForTimeout(200);
+    await page.mouse.up();
+    await page.waitForTimeout(100);
+  };
+  await hold("along z back");
+  await page.getByLabel("In the axes of the").selectOption("tool");
+  await hold("about x forth");
+  const all = await called(page);
+  assert.deepEqual(all.filter((one) => /[.]jog\(| = /.test(one)), ["Planner.jog(3, -0.025)", "Planner.jog_frame = tool", "Planner.jog(4, 0.1)"]);
+  assert.ok(all.includes("Planner.keepJogging(3, -0.025)"), all.join());
+  assert.equal(all.at(-1), "cancel");
+});
+
 for (const [what, leave] of [
   ["Escape", (page) => page.keyboard.press("Escape")],
   ["the window's loss of the focus", (page) => page.evaluate(() => window.dispatchEvent(new Event("blur")))],

@@ -77,6 +77,16 @@ export const kModels: Model[] = [
       operation("keepJogging", "goes on with it", [["int", "axis, from 1"], ["double", "velocity [rad/s]"]]),
     ],
   }),
+  model("PathPlanner", "robot", "moves a tool on paths", {
+    properties: [
+      property("max_tool_velocity", "double", "0.25", "of the tool", { unit: "m/s" }), property("max_tool_turning", "double", "1", "of the tool", { unit: "rad/s" }),
+      property("jog_frame", "text", "base", "in whose axes jog moves: base or tool"),
+    ],
+    operations: [
+      operation("jog", "moves the tool while it is held", [["int", "axis, from 1"], ["double", "velocity"]], true),
+      operation("keepJogging", "goes on with it", [["int", "axis, from 1"], ["double", "velocity"]]),
+    ],
+  }),
   model("Hardware", "robot", "drives the robot", {
     properties: [property("at_home", "bool", "false", "the operator has put the arm at home", { by_operator: true })],
   }),

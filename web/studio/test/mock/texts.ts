@@ -23,6 +23,13 @@ components:
   Hardware: {model: Hardware}
 `,
   },
+  tool: {
+    "tool.yaml": `application: tool
+libraries: [robot]
+components:
+  Planner: {model: PathPlanner, activity: {periodic: 10 ms}}
+`,
+  },
   arm: {
     "arm.yaml": `# An arm of seven joints on a rover.
 include: control.yaml

@@ -27,6 +27,8 @@ class HeldJog {
     return let_go_;
   }
 
+  double velocity() const { return velocity_; }
+
   HeldJog() = default;
 
  private:
