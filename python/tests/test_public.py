@@ -76,9 +76,10 @@ def run(file: str) -> float:
 
 reveal_type(Double().gain)
 ''')
-    checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"),
-                              str(PACKAGE), str(user)], env={"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"},
-                             capture_output=True, text=True)
+    checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--config-file", str(TESTS.parent / "mypy.ini"),
+                              "--cache-dir", str(tmp_path / "cache"), str(PACKAGE), str(user)],
+                             env={"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"}, capture_output=True,
+                             text=True)
     assert checked.returncode == 0, checked.stdout + checked.stderr
     assert 'Revealed type is "builtins.float"' in checked.stdout
 
