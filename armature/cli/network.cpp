@@ -3,9 +3,29 @@
 
 #include <utility>
 
+#include "armature/base/quoted.hpp"
+#include "armature/control/dynamics/robot_frames.hpp"
+#include "armature/platform/file.hpp"
 #include "armature/tls/transport.hpp"
 
 namespace armature::cli {
+namespace {
+
+/// The robots of this process' application: their descriptions are files of this machine.
+class OwnDescriptions final : public foxglove::Companion {
+ public:
+  base::Result<std::string> description(const std::string& path) override {
+    constexpr std::size_t kMostBytes = 4u << 20;
+    auto text = platform::read_file(path, kMostBytes);
+    if (!text) return text;
+    // No other file is given away, whatever a property names.
+    const auto robot = control::RobotFrames::parse(text.value());
+    if (!robot) return base::Error{base::quoted(path) + ": " + robot.error()};
+    return text;
+  }
+};
+
+}  // namespace
 
 deploy::MakePlaceholder NetworkOnDemand::placeholders() {
   return
@@ -45,8 +65,21 @@ bool NetworkOnDemand::open(const document::Document& document, const RunArgument
                    "open " + page + " in a browser" + (anywhere ? "" : " of this machine"));
     }
   }
+  for (const auto& messages : messages_) {
+    for (const std::string& address : messages->addresses()) {
+      console_.say(rt::LogLevel::kInfo, "Foxglove finds it at " + address);
+    }
+  }
   console_.show(diagnostics);
   return diagnostics.ok();
+}
+
+std::shared_ptr<websocket::Messages> NetworkOnDemand::serve_foxglove() {
+  messages_.push_back(foxglove::make_messages());
+  foxglove::ServerOptions options;
+  options.companion = [](ride::Peer&) { return std::make_unique<OwnDescriptions>(); };
+  foxglove_.push_back(std::make_unique<foxglove::Server>(messages_.back(), std::move(options)));
+  return messages_.back();
 }
 
 void NetworkOnDemand::serve() {
@@ -65,11 +98,13 @@ remote::Network& NetworkOnDemand::network() {
         {files.certificate.name, files.key.name, files.authority.name}, problems);
   };
   options.web = [this](const document::Network& files, base::Diagnostics& problems) {
+    const bool pages = !files.pages.name.empty();
     auto transport = websocket::make_transport({.pages = files.pages.name,
                                                 .certificate = files.certificate.name,
                                                 .key = files.key.name,
                                                 .authority = files.authority.name,
-                                                .tokens = tokens_},
+                                                .tokens = tokens_,
+                                                .messages = pages ? serve_foxglove() : nullptr},
                                                problems);
     if (transport != nullptr) web_.push_back(transport);
     return transport;

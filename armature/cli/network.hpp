@@ -9,6 +9,7 @@
 #include "armature/cli/arguments.hpp"
 #include "armature/cli/console.hpp"
 #include "armature/deploy/builder.hpp"
+#include "armature/foxglove/server.hpp"
 #include "armature/remote/network.hpp"
 #include "armature/websocket/transport.hpp"
 
@@ -43,11 +44,15 @@ class NetworkOnDemand {
 
  private:
   remote::Network& network();
+  std::shared_ptr<websocket::Messages> serve_foxglove();
 
   const Console& console_;
   const std::string policy_;
   const std::string tokens_;
   std::vector<std::shared_ptr<websocket::Transport>> web_;
+  std::vector<std::shared_ptr<websocket::Messages>> messages_;
+  /// They ask the node, and end once it has gone.
+  std::vector<std::unique_ptr<foxglove::Server>> foxglove_;
   std::unique_ptr<remote::Network> network_;
 };
 

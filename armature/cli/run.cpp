@@ -2,13 +2,17 @@
 #include "armature/cli/run.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +22,8 @@
 #include "armature/cli/network.hpp"
 #include "armature/cli/release_code.hpp"
 #include "armature/cli/report.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/component/observing/observer.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/saved_properties.hpp"
 #include "armature/platform/clock.hpp"
@@ -103,6 +109,42 @@ report::RunFacts facts_of(const RunArguments& arguments) {
   facts.simulated = arguments.simulated;
   if (!arguments.simulated) facts.begin = platform::monotonic_now();
   return facts;
+}
+
+/// 64-bit FNV-1a, by which a text is known again.
+std::string hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char one : text) {
+    hash = (hash ^ static_cast<unsigned char>(one)) * 0x100000001b3u;
+  }
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return digits.data();
+}
+
+/// For recordings: by which deployment, program and machine they were made.
+std::map<std::string, std::string> about_of(const RunArguments& arguments) {
+  constexpr std::size_t kLargestDeployment = 16 << 20;
+  std::map<std::string, std::string> about{{"deployment", arguments.load.file},
+                                           {"version", ARMATURE_VERSION},
+                                           {"machine", platform::machine_text()},
+                                           {"simulated", arguments.simulated ? "true" : "false"}};
+  if (const auto text = platform::read_file(arguments.load.file, kLargestDeployment)) {
+    about["deployment_fnv1a_64"] = hash_of(text.value());
+  }
+  std::string set;
+  for (const std::string& one : arguments.load.overrides) set += (set.empty() ? "" : "\n") + one;
+  if (!set.empty()) about["set"] = set;
+  return about;
+}
+
+void tell_recorders(const exec::Blueprint& blueprint, const RunArguments& arguments) {
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    for (component::Observer* const observer :
+         component::interface_of(*entry.component).observers) {
+      observer->set_about(about_of(arguments));
+    }
+  }
 }
 
 /// @param companions, network, service, facts  outlive the application
@@ -235,6 +277,7 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   std::optional<platform::Printer> printer;
   if (!arguments.simulated) printer.emplace();
   runner::tell_grants(deployment.options.grants, console);
+  tell_recorders(deployment.blueprint, arguments);
   report::RunFacts facts = facts_of(arguments);
   if (!arguments.simulated) console.set_begin(facts.begin);
   const platform::StopSignal stop;

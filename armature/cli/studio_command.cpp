@@ -168,6 +168,9 @@ int run_studio(const StudioArguments& given, const Console& console) {
                 "open " + page + " in a browser" + (anywhere ? "" : " of this machine"));
     if (!arguments.no_open) open_in_browser(page);
   }
+  for (const std::string& address : server->foxglove()) {
+    console.say(rt::LogLevel::kInfo, "Foxglove finds it at " + address);
+  }
   while (!stop.received()) server->serve(200ms);
   if (const int process = server->running(); process != 0) {
     console.say(rt::LogLevel::kInfo, "the application goes on (process " + std::to_string(process) +

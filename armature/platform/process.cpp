@@ -16,6 +16,13 @@ std::string kernel_version() {
   return std::string(names.release) + " " + names.version;
 }
 
+std::string machine_text() {
+  utsname names{};
+  if (::uname(&names) != 0) return {};
+  return std::string(names.nodename) + ", " + names.sysname + " " + names.release + " " +
+         names.machine;
+}
+
 void exit_now(int status) { ::_exit(status); }
 
 base::Error start_again(const std::vector<std::string>& arguments,

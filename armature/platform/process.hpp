@@ -12,6 +12,9 @@ namespace armature::platform {
 /// The kernel's version text, which names its preemption model.
 std::string kernel_version();
 
+/// The machine's name, its system and processor: `robot, Linux 6.1.0 x86_64`.
+std::string machine_text();
+
 /// Ends the process at once: nothing is flushed, no destructor runs. For the way out when a thread
 /// hangs.
 [[noreturn]] void exit_now(int status);

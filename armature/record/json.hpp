@@ -21,5 +21,7 @@ base::Result<void> from_json(const types::Type& type, std::string_view json, voi
 
 /// The JSON Schema of what `to_json` writes; a field's documentation and unit are its description.
 std::string json_schema(const types::Type& type);
+/// Its name: that of the type, or of a schema that Foxglove knows (ros_types.hpp).
+std::string json_schema_name(const types::Type& type);
 
 }  // namespace armature::record

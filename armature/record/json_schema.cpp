@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/record/internal/json_text.hpp"
 #include "armature/record/json.hpp"
+#include "armature/record/ros_types.hpp"
 
 namespace armature::record {
 namespace {
@@ -81,6 +82,11 @@ void append_schema(const Type& type, const std::string& about, std::string& to) 
 }
 
 }  // namespace
+
+std::string json_schema_name(const Type& type) {
+  const bool foxgloves = types::same_type(type, types::type_of<ros::FrameTransforms>());
+  return foxgloves ? "foxglove.FrameTransforms" : type.name;
+}
 
 std::string json_schema(const Type& type) {
   std::string schema;

@@ -2,10 +2,14 @@
 #include "armature/record/mcap_reader.hpp"
 
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "armature/platform/file.hpp"
+#include "armature/record/cdr.hpp"
+#include "armature/record/internal/compression.hpp"
 #include "armature/record/internal/mcap_format.hpp"
 #include "armature/record/json.hpp"
 
@@ -143,11 +147,16 @@ class Reader {
                        cursor.take(crc) && cursor.take_counted(compression) &&
                        cursor.take(stored_size) && cursor.take_bytes(stored_size, records);
     if (!whole) return fail(content, "a whole chunk");
-    if (!compression.empty()) {
-      return fail(content,
-                  "a chunk that is not compressed, found '" + std::string(compression) + "'");
+    if (compression.empty()) {
+      return check_crc(crc, records, "the chunk") && read_chunk_records(Cursor(records));
     }
-    return check_crc(crc, records, "the chunk") && read_chunk_records(Cursor(records));
+    const auto bytes = internal::decompressed(compression, records, static_cast<std::size_t>(size));
+    if (!bytes) return fail(content, "a chunk that can be read: " + bytes.error());
+    within_ = content;
+    const bool read =
+        check_crc(crc, bytes.value(), "the chunk") && read_chunk_records(Cursor(bytes.value()));
+    within_.reset();
+    return read;
   }
 
   bool read_chunk_records(Cursor cursor) {
@@ -173,16 +182,23 @@ class Reader {
     const bool whole = cursor.take(id) && cursor.take(schema) && cursor.take_counted(name) &&
                        cursor.take_counted(encoding) && cursor.take_counted(metadata);
     if (!whole) return fail(content, "a whole channel");
-    if (encoding != internal::mcap::kMessageEncoding) {
-      return fail(content, "messages in json, found '" + std::string(encoding) + "'");
+    const bool cdr = encoding == internal::mcap::kCdrEncoding;
+    if (!cdr && encoding != internal::mcap::kMessageEncoding) {
+      return fail(content, "messages in json or cdr, found '" + std::string(encoding) + "'");
     }
     RecordedChannel channel;
     channel.name = name;
     if (!read_metadata(Cursor(metadata), channel)) return false;
+    if (cdr && channel.layout.empty()) {
+      return fail(content,
+                  "messages of armature, which tell their layout, found cdr of another "
+                  "program");
+    }
     const auto index = static_cast<ChannelId>(recording_.channels.size());
     const auto [known, is_new] = indexes_.emplace(id, index);
     if (is_new) {
       recording_.channels.push_back(std::move(channel));
+      in_cdr_.push_back(cdr);
     } else if (recording_.channels[known->second] != channel) {
       return fail(content, "one channel for each number, found a second");
     }
@@ -221,8 +237,19 @@ class Reader {
     }
     sample.channel = channel->second;
     sample.time = base::time_from_ns(static_cast<std::int64_t>(time_ns));
-    sample.json = cursor.rest();
+    if (!read_value(sample.channel, cursor.rest(), sample.json)) return false;
     recording_.samples.push_back(std::move(sample));
+    return true;
+  }
+
+  bool read_value(ChannelId channel, std::string_view content, std::string& json) {
+    if (!in_cdr_[channel]) {
+      json = content;
+      return true;
+    }
+    auto read = json_of_cdr(recording_.channels[channel].layout, content);
+    if (!read) return fail(content, "a value of the channel's layout: " + read.error());
+    json = std::move(read).value();
     return true;
   }
 
@@ -249,12 +276,15 @@ class Reader {
   }
 
   bool fail(std::string_view here, std::string expected) {
-    place_ = place_of(here);
+    place_ = place_of(within_.value_or(here));
     expected_ = std::move(expected);
     return false;
   }
 
   std::string_view whole_;
+  std::optional<std::string_view>
+      within_;                ///< the chunk, while what it was decompressed to is read
+  std::vector<bool> in_cdr_;  ///< by channel
   std::string_view summary_;
   std::size_t summary_begin_ = 0;
   std::uint32_t summary_crc_ = 0;

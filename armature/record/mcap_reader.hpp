@@ -52,9 +52,10 @@ enum class Unclosed : std::uint8_t {
   kReadToLastChunk,  ///< all that is whole is read; also of one that was cut off later
 };
 
-/// Reads a file of McapWriter, or of another program that writes JSON, uncompressed, with a
-/// summary. Every CRC is checked; a file that is damaged, or not closed unless that is allowed, is
-/// refused as a whole, and the error says at which byte what was expected.
+/// Reads a file of McapWriter, or of another program that writes JSON with a summary. Messages in
+/// CDR are read by the layout in their channel's metadata, which McapWriter writes; a channel
+/// without one is refused. Every CRC is checked; a file that is damaged, or not closed unless that
+/// is allowed, is refused as a whole, and the error says at which byte what was expected.
 /// @param file  the name for errors
 base::Result<McapRecording> parse_mcap(std::string_view content, const std::string& file,
                                        Unclosed unclosed = Unclosed::kRefused);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdint>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -229,13 +230,13 @@ TEST(Mcap, DamageWithoutCrcsIsSurvived) {
   EXPECT_GT(refused, 0);
 }
 
-TEST(Mcap, ACompressedChunkIsRefused) {
+TEST(Mcap, AChunkThatIsCompressedInAnotherWayIsRefused) {
   std::string file = without_crcs(small_file());
   constexpr std::size_t kChunk = 33;
   constexpr std::size_t kCompression = kChunk + internal::mcap::kRecordHead + 28;
   // Its name takes the place of the stored size and a little more: there are then no records.
-  file.replace(kCompression, 16, std::string("\x04\0\0\0zstd\0\0\0\0\0\0\0\0", 16));
-  EXPECT_THAT(problem(file), HasSubstr("not compressed, found 'zstd'"));
+  file.replace(kCompression, 16, std::string("\x04\0\0\0gzip\0\0\0\0\0\0\0\0", 16));
+  EXPECT_THAT(problem(file), HasSubstr("expected zstd, lz4 or nothing, found 'gzip'"));
 }
 
 TEST(Mcap, AnotherTypeThanTheRecordedOneIsRefused) {
@@ -288,6 +289,68 @@ TEST(McapWriter, SaysThatTheFileCannotBeMade) {
               HasSubstr("cannot write '/no/such/folder/a.mcap': No such file or directory"));
   EXPECT_EQ(McapWriter::create("/dev/full").error(),
             "cannot write '/dev/full': No space left on device");
+}
+
+class McapForms : public ::testing::TestWithParam<std::tuple<McapWriter::Profile, const char*>> {
+ protected:
+  static McapWriter::Options options() {
+    const auto& [profile, compression] = GetParam();
+    return {.chunk_size = 500, .profile = profile, .compression = compression};
+  }
+  /// A hundred samples of everything.
+  static std::string written() {
+    if (!McapWriter::can_compress(options().compression)) return {};
+    const std::string path = temporary("forms.mcap");
+    auto writer = McapWriter::create(path, options());
+    EXPECT_TRUE(writer) << writer.error();
+    EXPECT_TRUE(writer.value()->add_channel(channel_of("All", types::make_everything())));
+    for (int i = 0; i < 100; ++i) {
+      types::Everything value = types::make_everything();
+      value.i32 = i;
+      EXPECT_TRUE(write(*writer.value(), 0, i, value));
+    }
+    EXPECT_TRUE(writer.value()->close());
+    return platform::read_file(path).value();
+  }
+};
+
+TEST_P(McapForms, AllAreReadBackAsTheyWere) {
+  const std::string file = written();
+  if (file.empty()) GTEST_SKIP() << "built without";
+  const auto recording = parse_mcap(file, "forms.mcap");
+  ASSERT_TRUE(recording) << recording.error();
+  ASSERT_EQ(recording.value().samples.size(), 100u);
+  types::Everything expected = types::make_everything();
+  expected.i32 = 0;
+  for (const RecordedSample& sample : recording.value().samples) {
+    types::Everything found;
+    const auto read = recording.value().read(sample, type_of<types::Everything>(), &found);
+    ASSERT_TRUE(read) << read.error();
+    EXPECT_EQ(found, expected);
+    ++expected.i32;
+  }
+}
+
+TEST_P(McapForms, DamageIsFound) {
+  const std::string file = without_crcs(written());
+  if (file.size() < 1000) GTEST_SKIP() << "built without";
+  for (std::size_t place = 300; place < 2000; place += 7) {
+    std::string damaged = file;
+    damaged[place] = static_cast<char>(damaged[place] ^ 0x55);
+    const auto recording = parse_mcap(damaged, "forms.mcap");
+    if (!recording) EXPECT_THAT(recording.error(), HasSubstr("at byte ")) << place;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, McapForms,
+                         ::testing::Combine(::testing::Values(McapWriter::Profile::kNone,
+                                                              McapWriter::Profile::kRos2),
+                                            ::testing::Values("", "zstd", "lz4")));
+
+TEST(McapCompression, AnotherOneIsRefusedAndSaysWhichThereAre) {
+  const auto writer = McapWriter::create(temporary("odd.mcap"), {.compression = "gzip"});
+  ASSERT_FALSE(writer);
+  EXPECT_THAT(writer.error(), HasSubstr("expected zstd, lz4 or nothing, found 'gzip'"));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/record/cdr.hpp"
+#include "armature/record/internal/compression.hpp"
 #include "armature/record/internal/mcap_format.hpp"
 #include "armature/record/json.hpp"
 
@@ -23,18 +25,20 @@ void put_entry(std::string_view key, std::string_view value, std::string& to) {
   put_counted(value, to);
 }
 
-std::string schema_record(std::uint16_t id, const std::string& name, const std::string& text) {
+std::string schema_record(std::uint16_t id, const std::string& name, std::string_view encoding,
+                          const std::string& text) {
   std::string content;
   put(id, content);
   put_counted(name, content);
-  put_counted(internal::mcap::kSchemaEncoding, content);
+  put_counted(encoding, content);
   put_counted(text, content);
   std::string record;
   put_record(Op::kSchema, content, record);
   return record;
 }
 
-std::string channel_record(ChannelId id, std::uint16_t schema, const Channel& channel) {
+std::string channel_record(ChannelId id, std::uint16_t schema, std::string_view encoding,
+                           const Channel& channel) {
   std::string metadata;
   put_entry("type", channel.shape.type().name, metadata);
   put_entry("layout", types::layout_text(channel.shape.type()), metadata);
@@ -44,7 +48,7 @@ std::string channel_record(ChannelId id, std::uint16_t schema, const Channel& ch
   put(id, content);
   put(schema, content);
   put_counted(channel.name, content);
-  put_counted(internal::mcap::kMessageEncoding, content);
+  put_counted(encoding, content);
   put_counted(metadata, content);
   std::string record;
   put_record(Op::kChannel, content, record);
@@ -73,12 +77,17 @@ void McapWriter::TimeSpan::add(std::uint64_t time_ns) {
 
 base::Result<std::unique_ptr<McapWriter>> McapWriter::create(const std::string& path,
                                                              const Options& options) {
+  if (auto can = can_compress(options.compression); !can) return base::Error{can.error()};
   auto file = platform::OutputFile::create(path);
   if (!file) return base::Error{file.error()};
   std::unique_ptr<McapWriter> writer(new McapWriter(std::move(file).value(), options));
   const auto begun = writer->begin();
   if (!begun) return base::Error{begun.error()};
   return writer;
+}
+
+base::Result<void> McapWriter::can_compress(const std::string& compression) {
+  return internal::can_compress(compression);
 }
 
 McapWriter::McapWriter(platform::OutputFile file, const Options& options)
@@ -89,7 +98,7 @@ McapWriter::~McapWriter() { static_cast<void>(McapWriter::close().ok()); }
 base::Result<void> McapWriter::begin() {
   std::string bytes(kMagic);
   std::string content;
-  put_counted("", content);  // no profile
+  put_counted(is_for_ros() ? internal::mcap::kRosProfile : "", content);
   put_counted(kLibrary, content);
   put_record(Op::kHeader, content, bytes);
   return emit(bytes);
@@ -107,7 +116,10 @@ base::Result<ChannelId> McapWriter::add_channel(Channel channel) {
   auto id = channels_.add(std::move(channel));
   if (!id) return id;
   const Channel& added = channels_[id.value()];
-  const std::string record = channel_record(id.value(), schema_id(added.shape.type()), added);
+  const std::string_view encoding =
+      is_for_ros() ? internal::mcap::kCdrEncoding : internal::mcap::kMessageEncoding;
+  const std::string record =
+      channel_record(id.value(), schema_id(added.shape.type()), encoding, added);
   channel_records_ += record;
   chunk_.records += record;
   message_counts_.push_back(0);
@@ -136,17 +148,20 @@ base::Result<void> McapWriter::add_metadata(const std::string& name,
 
 /// Writes the schema if it is new. There are fewer than channels, so their numbers suffice.
 std::uint16_t McapWriter::schema_id(const types::Type& type) {
-  std::string text = json_schema(type);
+  const std::string name = is_for_ros() ? ros2_name(type) : json_schema_name(type);
+  std::string text = is_for_ros() ? ros2_definition(type) : json_schema(type);
   const auto same = [&](const Schema& schema) {
-    return schema.name == type.name && schema.text == text;
+    return schema.name == name && schema.text == text;
   };
   const auto found = std::ranges::find_if(schemas_, same);
   const auto id = static_cast<std::uint16_t>(found - schemas_.begin() + 1);  // 0 means "none"
   if (found == schemas_.end()) {
-    const std::string record = schema_record(id, type.name, text);
+    const std::string record = schema_record(
+        id, name,
+        is_for_ros() ? internal::mcap::kRosSchemaEncoding : internal::mcap::kSchemaEncoding, text);
     schema_records_ += record;
     chunk_.records += record;
-    schemas_.push_back({type.name, std::move(text)});
+    schemas_.push_back({name, std::move(text)});
   }
   return id;
 }
@@ -182,7 +197,8 @@ void McapWriter::append_message(const Sample& sample, const types::Value& value)
   put(sample.sequence, content);
   put(time_ns, content);  // recorded
   put(time_ns, content);  // published
-  content += to_json(value.type(), value.data());
+  content +=
+      is_for_ros() ? to_cdr(value.type(), value.data()) : to_json(value.type(), value.data());
   put_record(Op::kMessage, content, chunk_.records);
 
   chunk_.times.add(time_ns);
@@ -190,15 +206,16 @@ void McapWriter::append_message(const Sample& sample, const types::Value& value)
   ++message_counts_[sample.channel];
 }
 
-std::string McapWriter::chunk_record() const {
+/// @param stored  the chunk's records, perhaps compressed
+std::string McapWriter::chunk_record(const std::string& stored) const {
   std::string content;
   put(chunk_.times.begin_ns, content);
   put(chunk_.times.end_ns, content);
   put(std::uint64_t{chunk_.records.size()}, content);
   put(internal::mcap::crc32(0, chunk_.records), content);
-  put_counted("", content);  // not compressed
-  put(std::uint64_t{chunk_.records.size()}, content);
-  content += chunk_.records;
+  put_counted(options_.compression, content);
+  put(std::uint64_t{stored.size()}, content);
+  content += stored;
   std::string record;
   put_record(Op::kChunk, content, record);
   return record;
@@ -220,7 +237,8 @@ std::string McapWriter::message_indexes(std::uint64_t begin, std::string& offset
 
 base::Result<void> McapWriter::write_chunk() {
   if (chunk_.records.empty()) return {};
-  const std::string record = chunk_record();
+  const std::string stored = internal::compressed(options_.compression, chunk_.records);
+  const std::string record = chunk_record(stored);
   std::string offsets;
   const std::string indexes = message_indexes(size_ + record.size(), offsets);
   std::string content;
@@ -230,8 +248,8 @@ base::Result<void> McapWriter::write_chunk() {
   put(std::uint64_t{record.size()}, content);
   put_counted(offsets, content);
   put(std::uint64_t{indexes.size()}, content);
-  put_counted("", content);  // not compressed: the two sizes are the same
-  put(std::uint64_t{chunk_.records.size()}, content);
+  put_counted(options_.compression, content);
+  put(std::uint64_t{stored.size()}, content);
   put(std::uint64_t{chunk_.records.size()}, content);
   put_record(Op::kChunkIndex, content, chunk_indexes_);
   ++chunk_count_;

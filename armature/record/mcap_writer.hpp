@@ -17,16 +17,23 @@ namespace armature::record {
 
 /// Writes MCAP (https://mcap.dev/spec), which Foxglove and the `mcap` tools read.
 ///
-/// Messages are JSON (json.hpp) with a JSON Schema for each type. A channel's metadata has `type`
-/// and `layout` (types::layout_text), and `unit` and `doc` where there is one. Both of a message's
-/// times are the sample's, on the application's clock. Chunks are indexed, have a CRC and are not
-/// compressed. Channels may be added at any time.
+/// Messages are JSON (json.hpp) with a JSON Schema for each type, or by the profile `ros2` CDR with
+/// definitions of messages (cdr.hpp). A channel's metadata has `type` and `layout`
+/// (types::layout_text), and `unit` and `doc` where there is one. Both of a message's times are the
+/// sample's, on the application's clock. Chunks are indexed and have a CRC. Channels may be added
+/// at any time.
 class McapWriter final : public Writer {
  public:
+  /// For whom the messages are.
+  enum class Profile : std::uint8_t { kNone, kRos2 };
   /// How the file is written.
   struct Options {
     std::size_t chunk_size = 1u << 20;  ///< bytes of messages that are written at once
+    Profile profile = Profile::kNone;
+    std::string compression{};  ///< of chunks: `zstd`, `lz4`; empty: none
   };
+  /// Whether this build can compress so; the error says what it lacks, or which there are.
+  static base::Result<void> can_compress(const std::string& compression);
 
   static base::Result<std::unique_ptr<McapWriter>> create(const std::string& path,
                                                           const Options& options);
@@ -69,9 +76,10 @@ class McapWriter final : public Writer {
   base::Result<void> begin();
   std::uint16_t schema_id(const types::Type& type);
   std::size_t most_of_chunk() const;
+  bool is_for_ros() const { return options_.profile == Profile::kRos2; }
   void append_message(const Sample& sample, const types::Value& value);
   base::Result<void> write_chunk();
-  std::string chunk_record() const;
+  std::string chunk_record(const std::string& stored) const;
   std::string message_indexes(std::uint64_t begin, std::string& offsets) const;
   std::string statistics() const;
   std::string summary(std::uint64_t begin) const;

@@ -77,9 +77,10 @@ void keep_only(std::vector<inspect::ComponentStatus>& all, const inspect::View::
 /// The inspector of a peer, and what is known of what it told.
 class PeerView::Client {
  public:
-  explicit Client(ride::Peer& its_peer)
+  Client(ride::Peer& its_peer, const std::string& name)
       : peer(its_peer),
-        inspector(its_peer, Inspector::kName),
+        inspector(its_peer, name),
+        name_(name),
         watch_(its_peer.on_change([this](const ride::PeerChange& change) {
           const std::lock_guard lock(mutex_);
           changes_.push_back({change.connected, harmless(change.text)});
@@ -113,7 +114,7 @@ class PeerView::Client {
     if (has_application_) return *has_application_;
     const auto& all = hosted();
     const bool listed = std::any_of(all.begin(), all.end(), [&](const ride::PeerComponent& one) {
-      return one.name == Inspector::kName && one.interface == inspector.interface().name;
+      return one.name == name_ && one.interface == inspector.interface().name;
     });
     // The directory may know it before the placeholder has asked again.
     has_application_ =
@@ -127,6 +128,7 @@ class PeerView::Client {
   std::map<std::string, ComponentDescription, std::less<>> known;
 
  private:
+  const std::string name_;
   std::vector<ride::PeerComponent> hosted_;
   std::optional<bool> has_application_;
   std::mutex mutex_;
@@ -134,7 +136,10 @@ class PeerView::Client {
   ride::Subscription watch_;
 };
 
-PeerView::PeerView(ride::Peer& peer) : client_(std::make_unique<Client>(peer)) {}
+PeerView::PeerView(ride::Peer& peer) : PeerView(peer, Inspector::kName) {}
+
+PeerView::PeerView(ride::Peer& peer, const std::string& inspector)
+    : client_(std::make_unique<Client>(peer, inspector)) {}
 
 PeerView::~PeerView() = default;
 

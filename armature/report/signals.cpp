@@ -109,6 +109,8 @@ Signals signals_of(const record::McapRecording& recording) {
     by_channel[sample.channel].push_back(&sample);
   }
   for (std::size_t i = 0; i < by_channel.size(); ++i) {
+    // Frames and joint states for other programs, which follow from ports that are recorded.
+    if (recording.channels[i].name.starts_with('/')) continue;
     Unpacking unpacking(recording.channels[i], signals);
     for (const record::RecordedSample* sample : by_channel[i]) unpacking.add(*sample);
   }

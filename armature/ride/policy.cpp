@@ -107,7 +107,7 @@ class Line {
     const std::size_t at = word.text.rfind('@');
     const bool whole = at != std::string_view::npos && at != 0 && at + 1 != word.text.size();
     if (whole && word.text.substr(at + 1) == "tls") return;
-    if (word.text == "page@web" || word.text == "*@web") return;
+    if (word.text == "page@web" || word.text == "foxglove@web" || word.text == "*@web") return;
     std::string hint = base::near_name(word.text, {"local"});
     if (whole) {
       hint = "did you mean '" + std::string(word.text.substr(0, at)) + "@tls'?";
@@ -117,7 +117,8 @@ class Line {
       hint = "did you mean '" + std::string(word.text) + "@tls'?";
     }
     wrong(word,
-          "expected NAME@tls, *@tls, page@web, local:USER, local or *, found " + quoted(word.text),
+          "expected NAME@tls, *@tls, page@web, foxglove@web, local:USER, local or *, found " +
+              quoted(word.text),
           hint);
   }
 

@@ -12,6 +12,7 @@
 #include "armature/studio/internal/elsewhere/server.hpp"
 #include "armature/studio/internal/entrance.hpp"
 #include "armature/studio/internal/every.hpp"
+#include "armature/studio/internal/foxglove_companion.hpp"
 #include "armature/studio/internal/relay.hpp"
 #include "armature/studio/internal/workbench.hpp"
 
@@ -31,13 +32,15 @@ class StudioServer final : public Server {
                std::unique_ptr<platform::Poller> poller)
       : lock_(std::move(*entrance.lock)),
         poller_(std::move(poller)),
+        messages_(std::move(entrance.messages)),
         transport_(std::move(entrance.transport)),
         desk_({options.file, options.program, options.arguments, entrance.folder},
               {[this] { project_changed_ = true; }, [this] { run_changed_ = true; }}),
         relay_(kRunName, seat_, [this] { poller_->wake(); }),
         stops_(relay_, [this](const std::string&) { return desk_.run().stop(); }),
         workbench_(desk_, seat_, stops_, queue_, [this] { poller_->wake(); }),
-        node_(std::move(entrance.node)) {}
+        node_(std::move(entrance.node)),
+        foxglove_(messages_, foxglove_options()) {}
 
   ~StudioServer() override {
     queue_.close();
@@ -57,6 +60,7 @@ class StudioServer final : public Server {
   }
 
   std::vector<std::string> pages() const override { return transport_->pages(); }
+  std::vector<std::string> foxglove() const override { return messages_->addresses(); }
 
   void serve(base::Duration limit) override {
     watch_checker();
@@ -101,6 +105,7 @@ class StudioServer final : public Server {
 
   const platform::FolderLock lock_;
   const std::unique_ptr<platform::Poller> poller_;
+  const std::shared_ptr<websocket::Messages> messages_;
   const std::shared_ptr<websocket::Transport> transport_;
   bool project_changed_ = false;
   bool run_changed_ = false;
@@ -115,6 +120,7 @@ class StudioServer final : public Server {
   EmergencyStops stops_;
   Workbench workbench_;
   ride::Node node_;
+  foxglove::Server foxglove_;
 };
 
 std::unique_ptr<Server> make_file_server(const ServerOptions& options,

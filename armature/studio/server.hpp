@@ -45,6 +45,8 @@ class Server {
 
   /// Addresses to open in a browser of this machine.
   virtual std::vector<std::string> pages() const = 0;
+  /// Addresses for Foxglove, with the secret that lets it in.
+  virtual std::vector<std::string> foxglove() const = 0;
   /// Does what is to be done, and waits for more, at most so long.
   /// @thread one
   virtual void serve(base::Duration limit) = 0;

@@ -12,6 +12,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
 #include "armature/ride/transport.hpp"
+#include "armature/websocket/messages.hpp"
 
 namespace armature::websocket {
 
@@ -35,6 +36,8 @@ struct Options {
   std::size_t connections = 32;  ///< at an address, those that only fetch files, too
   std::size_t frame_bytes =
       64 * 1024;  ///< of a frame from a page; a larger one ends the connection
+  /// Who speaks another protocol there, too; none: nobody.
+  std::shared_ptr<Messages> messages = {};
   /// Who takes nothing of what waits for it so long is disconnected.
   base::Duration time_to_take = std::chrono::seconds(30);
 };

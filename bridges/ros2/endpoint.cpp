@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/component/host.hpp"
 #include "armature/rt/guard.hpp"
 #include "bridges/ros2/internal/effort_check.hpp"
@@ -137,24 +138,44 @@ void Subscriber::on_check(component::Check& check) const { internal::check_effor
 void Subscriber::begin() {
   received_count_ = refused_count_ = 0;
   refuses_ = false;
-  received_at_ = time();
+  updated_at_ = time();
+  deafen();
   received_.write(0);
   refusals_.write(0);
 }
 
+void Subscriber::deafen() {
+  deaf_ = true;
+  heard_at_ = time();
+}
+
+bool Subscriber::is_silent() const { return time() - heard_at_ > base::from_seconds(max_silence_); }
+
+void Subscriber::expect_arming(component::Check& check) const {
+  if (check.source_of(armed_) != nullptr && check.source_of(stopped_) != nullptr) return;
+  check.error("it is not told when the operator arms or stops the robot, and would go on by itself",
+              "add Arming to its peers");
+}
+
 bool Subscriber::was_held_up() {
   constexpr base::Duration kLongest = std::chrono::milliseconds(500);
-  return time() - std::exchange(received_at_, time()) > std::max(kLongest, 2 * period());
+  return time() - std::exchange(updated_at_, time()) > std::max(kLongest, 2 * period());
 }
 
 void Subscriber::receive(Reader& reader, const std::function<std::string(const void*)>& obey) {
   const bool too_old = was_held_up();
   reader.take(kMostInAnUpdate, [&](const void* sample) {
-    if (too_old) return refuse("it waited, since the thread of this component was held up");
-    if (const std::string why = obey(sample); !why.empty()) return refuse(why);
+    if (deaf_) heard_at_ = time();
+    const std::string why = deaf_     ? "nothing goes on by itself: first nobody must send for "
+                                        "max_silence"
+                            : too_old ? "it waited while the thread of this component was held up"
+                                      : obey(sample);
+    if (!why.empty()) return refuse(why);
+    heard_at_ = time();
     refuses_ = false;
     received_.write(++received_count_);
   });
+  if (is_silent()) deaf_ = false;
 }
 
 void Subscriber::refuse(std::string_view why) {

@@ -86,6 +86,10 @@ class Publisher : public Endpoint {
 ///
 /// What waited while its thread was held up for half a second is refused, too: it is too old.
 ///
+/// Nothing goes on by itself: with Arming among its peers, nobody is heard after the operator has
+/// armed, stopped or disarmed the robot, nor after a start, before there was silence for
+/// `max_silence`.
+///
 /// What its outputs lead to is checked: an effort only behind a component that takes commands, such
 /// as a generator of motions or a chassis, which keeps the limits.
 class Subscriber : public Endpoint {
@@ -98,8 +102,38 @@ class Subscriber : public Endpoint {
   /// Takes what has come: `obey` answers why it refuses a message, or nothing.
   void receive(Reader& reader, const std::function<std::string(const void* sample)>& obey);
   void refuse(std::string_view why);
+  /// Nobody is heard any more before there was silence.
+  void deafen();
+  bool is_deaf() const { return deaf_; }
+  /// There was no message for `max_silence`.
+  bool is_silent() const;
+  /// Refuses a deployment in which it is not told what the operator does.
+  void expect_arming(component::Check& check) const;
+
+  component::Property<double> max_silence_{
+      this, "max_silence",
+      0.5,  "without a message for so long, who sent them is gone",
+      "s",  component::range(0.02, 10.0)};
 
  private:
+  component::EventHandler<> armed_{this,
+                                   "Arm",
+                                   component::serve<&Subscriber::deafen>,
+                                   "the operator has armed the robot",
+                                   component::optional,
+                                   component::leads_to_nothing()};
+  component::EventHandler<> disarmed_{this,
+                                      "Disarm",
+                                      component::serve<&Subscriber::deafen>,
+                                      "the robot is disarmed",
+                                      component::optional,
+                                      component::leads_to_nothing()};
+  component::EventHandler<> stopped_{this,
+                                     "Stop",
+                                     component::serve<&Subscriber::deafen>,
+                                     "the operator stops the robot",
+                                     component::optional,
+                                     component::leads_to_nothing()};
   component::OutputPort<std::uint64_t> received_{this, "Received",
                                                  "messages since the start that were obeyed"};
   component::OutputPort<std::uint64_t> refusals_{this, "Refused",
@@ -109,7 +143,9 @@ class Subscriber : public Endpoint {
   std::uint64_t received_count_ = 0;
   std::uint64_t refused_count_ = 0;
   bool refuses_ = false;  ///< the last one was refused
-  base::Time received_at_{};
+  bool deaf_ = false;
+  base::Time updated_at_{};
+  base::Time heard_at_{};
 };
 
 /// What reads messages takes so many in an update at most.

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "armature/base/seconds.hpp"
 #include "armature/component/face.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/control/per_joint.hpp"
@@ -37,6 +36,7 @@ Trajectory trajectory_of(const trajectory_msgs_msg_dds__JointTrajectory_& messag
 
 void JointTrajectory::on_check(component::Check& check) const {
   Subscriber::on_check(check);
+  expect_arming(check);
   const auto* const plays = check.target_of(play_path_);
   if (plays == nullptr) return;  // which is reported
   for (const component::OutputPortBase* const writer : check.writers_of(desired_)) {
@@ -81,9 +81,6 @@ void JointTrajectory::begin() {
   motion_ = component::CommandHandle(component::CallStatus::kNotConnected);
   present_.reset();
   next_ = braking_ = rests_ = false;
-  // Who spoke before the start is not heard.
-  deaf_ = true;
-  heard_at_ = time();
 }
 
 void JointTrajectory::work() {
@@ -99,12 +96,7 @@ void JointTrajectory::work() {
 }
 
 std::string JointTrajectory::obey(Trajectory trajectory) {
-  if (deaf_) {
-    heard_at_ = time();
-    return "no motion goes on by itself: it is heard again when nobody has sent for max_silence";
-  }
   if (std::string why = objection_to(trajectory); !why.empty()) return why;
-  heard_at_ = time();
   if (present_ == trajectory) return {};
   present_ = std::move(trajectory);
   next_ = !present_->points.empty();
@@ -120,8 +112,7 @@ std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
 }
 
 void JointTrajectory::look_at_silence() {
-  if (time() - heard_at_ <= base::from_seconds(max_silence_)) return;
-  deaf_ = false;
+  if (!is_silent()) return;
   present_.reset();
   next_ = false;
   if (!moves() || braking_) return;
@@ -146,11 +137,11 @@ void JointTrajectory::look_at_motion() {
       log_warning("the motion ended: {}", motion_.reason());
     }
     // Its commander sends it still, and did not see why it ended.
-    if (stage != CommandStage::kDone && !braking_) deaf_ = true;
+    if (stage != CommandStage::kDone && !braking_) deafen();
     motion_ = component::CommandHandle(component::CallStatus::kNotConnected);
     braking_ = false;
   }
-  if (deaf_) {
+  if (is_deaf()) {
     present_.reset();
     next_ = false;
   }
@@ -170,7 +161,7 @@ void JointTrajectory::play_next() {
   const auto path =
       internal::smooth_path_of(internal::way_of(*present_, limits_, last_desired_), limits_);
   if (!path || path.value().largest_deviation > max_deviation_) {
-    deaf_ = true;
+    deafen();
     return refuse(path ? "its corners are sharper than max_deviation allows: give velocities"
                        : path.error());
   }

@@ -58,10 +58,6 @@ class JointTrajectory final : public Subscriber {
   component::Property<std::vector<std::string>> names_{
       this, "joint_names", {}, "in the order of the generator's axes", "", component::mandatory};
   component::Property<std::string> topic_{this, "topic", "joint_trajectory", "that it reads"};
-  component::Property<double> max_silence_{
-      this, "max_silence",
-      0.5,  "without a trajectory for so long the motion brakes",
-      "s",  component::range(0.02, 10.0)};
   component::Property<double> max_duration_{this, "max_duration",
                                             60.0, "of a trajectory; the generator's is as long",
                                             "s",  component::range(0.1, 3600.0)};
@@ -92,10 +88,8 @@ class JointTrajectory final : public Subscriber {
   std::optional<internal::Trajectory> present_;  ///< that was obeyed last
   bool next_ = false;                            ///< `present_` begins when the one before rests
   bool braking_ = false;                         ///< by this component
-  bool deaf_ = false;                            ///< until there is silence
   Vector last_desired_;
   bool rests_ = false;  ///< the generator has the joints at rest
-  base::Time heard_at_{};
 };
 
 }  // namespace armature::ros2

@@ -16,6 +16,7 @@ class Twist final : public Subscriber {
   using Subscriber::Subscriber;
 
  private:
+  void on_check(component::Check& check) const override;
   std::string open(const component::Surroundings& surroundings) override;
   void close() override { reader_.reset(); }
   void work() override;

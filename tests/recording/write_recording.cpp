@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: write_recording MCAP CSV
+// usage: write_recording MCAP CSV [ros2|none [zstd|lz4]]
 // Writes what recording_test.py knows; says the first error of each file and how many calls failed,
 // and how many samples were accepted and lost nevertheless.
 #include <array>
@@ -97,12 +97,17 @@ bool write_file(armature::base::Result<std::unique_ptr<Writer>> writer) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: write_recording MCAP CSV\n";
+  if (argc < 3 || argc > 5) {
+    std::cerr << "usage: write_recording MCAP CSV [ros2|none [zstd|lz4]]\n";
     return 2;
   }
-  constexpr std::size_t kSmallChunk = 4096;
-  const bool mcap = write_file(record::McapWriter::create(argv[1], {kSmallChunk}));
+  record::McapWriter::Options options;
+  options.chunk_size = 4096;
+  if (argc > 3 && std::string(argv[3]) == "ros2") {
+    options.profile = record::McapWriter::Profile::kRos2;
+  }
+  if (argc > 4) options.compression = argv[4];
+  const bool mcap = write_file(record::McapWriter::create(argv[1], options));
   const bool csv = write_file(record::CsvWriter::create(argv[2]));
   return mcap && csv ? 0 : 1;
 }

@@ -54,6 +54,41 @@ class Numbers final : public component::Component {
                                                     component::may_stay_open};
 };
 
+/// Stands for Arming.
+class Operator final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void arm() { arm_.raise(); }
+  void stop_robot() { stop_.raise(); }
+
+  component::Event<> arm_{this, "Arm", "armed", component::occasional};
+  component::Event<> disarm_{this, "Disarm", "disarmed", component::occasional};
+  component::Event<> stop_{this, "Stop", "stopped", component::occasional};
+  component::Operation<void()> do_arm_{this, "arm", component::serve<&Operator::arm>, "arms",
+                                       component::in_own_thread};
+  component::Operation<void()> do_stop_{this, "stop", component::serve<&Operator::stop_robot>,
+                                        "stops", component::in_own_thread};
+};
+
+/// Makes a voltage of a number.
+class Amplifier final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void amplify(double value) { out_.write(2.0 * value); }
+
+  component::InputPort<double> in_{this,
+                                   "In",
+                                   "a number",
+                                   "",
+                                   component::on_data<&Amplifier::amplify>,
+                                   component::may_stay_open};
+  component::OutputPort<double> out_{this, "Out", "twice that", "V"};
+};
+
 /// Writes {1, 0}, {2, 0}, ... in each of its cycles, once it is told to.
 class Ticker final : public component::Component {
  public:

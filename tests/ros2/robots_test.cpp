@@ -122,14 +122,31 @@ TEST(CmdVel, DrivesTheRoverAndACommanderThatDiesStopsIt) {
     return rover.value<double>("Chassis.Drive",
                                side == std::string("left") ? "SpeedLeft" : "SpeedRight");
   };
-  auto program = commander({"cmd_vel", "0.3", "0.5"});
-  ASSERT_TRUE(
-      runs_until(rover, [&] { return rover.value<std::uint64_t>("CmdVel", "Received") > 5; }));
+  auto first = commander({"cmd_vel", "0.3", "0.5"});
+  const auto heard = [&] {
+    return rover.value<std::uint64_t>("CmdVel", "Received") +
+           rover.value<std::uint64_t>("CmdVel", "Refused");
+  };
+  ASSERT_TRUE(runs_until(rover, [&] { return heard() > 5; }));
   EXPECT_NEAR(speed("left"), 0.0, 0.01) << "it drives, and nobody armed it";
+  // It goes on sending while the operator arms the rover: that moves nothing.
   ASSERT_EQ(rover.arm(), CommandStage::kDone) << rover.reasons();
+  run_beside(rover, 500ms);
+  EXPECT_NEAR(speed("right"), 0.0, 0.01) << "it drives on by itself";
+  first.send(SIGKILL);
+  run_beside(rover, 800ms);
+  auto program = commander({"cmd_vel", "0.3", "0.5"});
   ASSERT_TRUE(runs_until(rover, [&] { return speed("right") > 0.33; })) << rover.reasons();
   EXPECT_NEAR(speed("left"), 0.3 - 0.5 * 0.15, 0.05);
+  // The operator stops it: it stays where it is, although the program goes on.
+  EXPECT_EQ(rover.call("Arming", "stop"), "");
+  run_beside(rover, 1s);
+  EXPECT_NEAR(speed("right"), 0.0, 0.01) << "it drives on after the operator's stop";
   program.send(SIGKILL);
+  run_beside(rover, 800ms);
+  auto last = commander({"cmd_vel", "0.3", "0.5"});
+  ASSERT_TRUE(runs_until(rover, [&] { return speed("right") > 0.33; })) << rover.reasons();
+  last.send(SIGKILL);
   // Its last speeds count for 0.2 s; then it brakes with 1 m/s^2.
   double before = speed("right");
   double hardest = 0.0;

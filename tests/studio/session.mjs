@@ -29,25 +29,25 @@ export async function finish() {
 export async function studio(name, text, port = 0) {
   const file = path_of(folder, name);
   if (text !== undefined) writeFileSync(file, text);
-  const { server, address } = await serve(file, "--listen", `ws://127.0.0.1:${port}`);
+  const { server, address, foxglove } = await serve(file, "--listen", `ws://127.0.0.1:${port}`);
   const end = (signal) => new Promise((ended) => server.once("exit", ended) && server.kill(signal));
-  return { file, address, end, content: () => readFileSync(file, "utf8") };
+  return { file, address, foxglove, end, content: () => readFileSync(file, "utf8") };
 }
 
-/** A studio with these words of its command line, and the address that it says. */
+/** A studio with these words of its command line, and the addresses that it says. */
 export async function serve(...words) {
   const server = spawn(program, ["studio", ...words, "--no-open"], { env: environment, stdio: ["ignore", "ignore", "pipe"] });
   servers.push(server);
   let told = "";
-  const address = await new Promise((resolve, reject) => {
+  const [, address, foxglove] = await new Promise((resolve, reject) => {
     server.stderr.on("data", (data) => {
       told += data;
-      const found = /open (http\S+) in/.exec(told);
-      if (found) resolve(found[1]);
+      const found = /open (http\S+) in[^]*Foxglove finds it at (\S+)/.exec(told);
+      if (found) resolve(found);
     });
     server.once("exit", () => reject(new Error(told)));
   });
-  return { server, address };
+  return { server, address, foxglove };
 }
 
 /** A user of it, with a browser of their own. */

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/component/component.hpp"
@@ -36,8 +38,16 @@ class Observer {
   /// the application has cleaned up.
   virtual void observe(const Surroundings& surroundings) = 0;
 
+  /// What runs, for files that outlive it: `deployment`, `version`, `machine`, ...
+  using About = std::map<std::string, std::string>;
+  void set_about(About about) { about_ = std::move(about); }
+
  protected:
   ~Observer() = default;
+  const About& about() const { return about_; }
+
+ private:
+  About about_;
 };
 
 }  // namespace armature::component

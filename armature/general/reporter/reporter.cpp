@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -20,6 +21,7 @@ using component::Component;
 using component::Outcome;
 
 constexpr base::Duration kFlushPeriod = std::chrono::seconds(1);
+constexpr std::size_t kMostSinks = 3;  ///< MCAP, CSV, console
 
 /// A log line takes so much of a text at a time.
 std::string_view part(std::string_view text, std::size_t number) {
@@ -42,7 +44,26 @@ std::vector<Reporter::Objection> Reporter::check_view(
     objections.push_back({"the property 'what' names nothing", "for example what: [PID1]"});
   }
   object_to_files(components, objections);
+  object_to_robot(components, objections);
   return objections;
+}
+
+void Reporter::object_to_robot(const std::vector<Component*>& components,
+                               std::vector<Objection>& objections) const {
+  if (const auto can = record::McapWriter::can_compress(mcap_options().compression); !can) {
+    objections.push_back({can.error(), "leave out 'compression'"});
+  }
+  const Selection joints = select(joints_, components);
+  objections.insert(objections.end(), joints.objections.begin(), joints.objections.end());
+  if (!joints_.get().empty() && file_.get().empty()) {
+    objections.push_back(
+        {"the property 'joints' is for an MCAP file, and there is none", "set file"});
+  }
+  for (const Source& one : joints.sources) {
+    if (one.output != nullptr) continue;
+    objections.push_back({"'" + one.name + "' of the property 'joints' is no output port",
+                          "name ports with measured positions"});
+  }
 }
 
 std::vector<std::string> Reporter::files() const {
@@ -78,6 +99,39 @@ void Reporter::observe(const component::Surroundings& surroundings) {
   channels_.clear();
   tracks_.clear();
   for (const Source& source : select(what_, surroundings.components).sources) follow(source);
+  follow_robot(surroundings);
+}
+
+/// Its joints are recorded, too.
+void Reporter::follow_robot(const component::Surroundings& surroundings) {
+  robot_.reset();
+  robot_ports_.clear();
+  robot_trouble_.clear();
+  std::vector<types::Value> positions;
+  for (const Source& source : select(joints_, surroundings.components).sources) {
+    const auto same = [&](const record::Channel& one) { return one.name == source.name; };
+    if (std::ranges::none_of(channels_, same)) follow(source);
+    const auto channel = std::ranges::find_if(channels_, same);
+    robot_ports_[static_cast<record::ChannelId>(channel - channels_.begin())] = positions.size();
+    positions.push_back(channel->shape);
+  }
+  if (positions.empty()) return;
+  auto robot =
+      RobotTrack::make(surroundings.components, std::move(positions), mcap_options().profile);
+  if (robot) {
+    robot_.emplace(std::move(robot).value());
+  } else {
+    robot_trouble_ = robot.error();
+  }
+}
+
+record::McapWriter::Options Reporter::mcap_options() const {
+  record::McapWriter::Options options;
+  if (profile_ == RecordingProfile::kRos2) options.profile = record::McapWriter::Profile::kRos2;
+  if (compression_ != RecordingCompression::kNone) {
+    options.compression = types::name_of(compression_.get());
+  }
+  return options;
 }
 
 void Reporter::follow(const Source& source) {
@@ -139,29 +193,50 @@ Outcome Reporter::on_start() {
 }
 
 base::Result<void> Reporter::open_sinks() {
+  robot_sink_ = nullptr;
+  if (!robot_trouble_.empty()) return base::Error{robot_trouble_};
+  sinks_.reserve(kMostSinks);  // one of them is pointed to
   if (!file_.get().empty()) {
-    auto added = add_sink(placed(file_), [](const std::string& path) {
-      return as_writer(record::McapWriter::create(path));
-    });
+    std::vector<record::Channel> channels = channels_;
+    if (robot_) std::ranges::move(robot_->channels(), std::back_inserter(channels));
+    auto added = add_sink(
+        placed(file_),
+        [this](const std::string& path) -> base::Result<std::unique_ptr<record::Writer>> {
+          auto made = record::McapWriter::create(path, mcap_options());
+          if (made && metadata_) {
+            const auto told = made.value()->add_metadata("armature", about());
+            if (!told) return base::Error{told.error()};
+          }
+          return as_writer(std::move(made));
+        },
+        channels);
     if (!added) return added;
+    if (robot_) robot_sink_ = &sinks_.back();
   }
   if (!csv_.get().empty()) {
-    auto added = add_sink(placed(csv_), [this](const std::string& path) {
-      auto made = record::CsvWriter::create(path);
-      if (made) table_ = made.value().get();
-      return as_writer(std::move(made));
-    });
+    auto added = add_sink(
+        placed(csv_),
+        [this](const std::string& path) {
+          auto made = record::CsvWriter::create(path);
+          if (made) table_ = made.value().get();
+          return as_writer(std::move(made));
+        },
+        channels_);
     if (!added) return added;
   }
   if (!console_) return {};
-  return add_sink("console", [](const std::string&) {
-    return base::Result<std::unique_ptr<record::Writer>>(
-        std::make_unique<record::ConsoleWriter>(std::cout));
-  });
+  return add_sink(
+      "console",
+      [](const std::string&) {
+        return base::Result<std::unique_ptr<record::Writer>>(
+            std::make_unique<record::ConsoleWriter>(std::cout));
+      },
+      channels_);
 }
 
-base::Result<void> Reporter::add_sink(const std::string& path, const Sink::Open& open) {
-  auto sink = Sink::open(path, open, channels_);
+base::Result<void> Reporter::add_sink(const std::string& path, const Sink::Open& open,
+                                      const std::vector<record::Channel>& channels) {
+  auto sink = Sink::open(path, open, channels);
   if (!sink) return base::Error{sink.error()};
   sinks_.push_back(std::move(sink).value());
   return {};
@@ -195,6 +270,7 @@ void Reporter::on_cleanup() {
   tell_losses();
   tell_end();
   table_ = nullptr;
+  robot_sink_ = nullptr;
   sinks_.clear();
   pending_.clear();
   tracks_.clear();  // the taps end with this run
@@ -235,10 +311,23 @@ void Reporter::write_before(base::Time end) {
       sink.write(
           {each->channel, sample.time, static_cast<std::uint32_t>(sample.sequence), sample.value});
     }
+    const auto port = robot_ports_.find(each->channel);
+    if (robot_ && port != robot_ports_.end()) robot_->take(port->second, sample.value);
+    const auto next = std::next(each);
+    if (next == stop || next->sample.time != sample.time) write_robot(sample.time);
   }
   recorded_.assign(recorded_ + static_cast<std::uint64_t>(stop - pending_.begin()));
   pending_.erase(pending_.begin(), stop);
   count_losses();
+}
+
+/// Once all that was written at a time is known.
+void Reporter::write_robot(base::Time time) {
+  if (!robot_ || robot_sink_ == nullptr) return;
+  for (const RobotTrack::Sample& one : robot_->due(time)) {
+    robot_sink_->write(
+        {static_cast<record::ChannelId>(channels_.size() + one.channel), time, 0, one.value});
+  }
 }
 
 void Reporter::count_losses() {

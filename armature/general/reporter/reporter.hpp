@@ -3,20 +3,31 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "armature/component/author.hpp"
 #include "armature/component/observing/observer.hpp"
+#include "armature/general/reporter/robot_track.hpp"
 #include "armature/general/reporter/selection.hpp"
 #include "armature/general/reporter/sink.hpp"
 #include "armature/record/recording.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::record {
 class CsvWriter;
 }
 
 namespace armature::general {
+
+/// For whom the messages of a recording are.
+enum class RecordingProfile : std::uint8_t { kNone, kRos2 };
+ARMATURE_ENUM(RecordingProfile, kNone, kRos2);
+/// Of a recording's chunks.
+enum class RecordingCompression : std::uint8_t { kNone, kZstd, kLz4 };
+ARMATURE_ENUM(RecordingCompression, kNone, kZstd, kLz4);
 
 /// Records ports, properties and components that it is not connected to (paper 2, section 4.2.3).
 ///
@@ -56,11 +67,17 @@ class Reporter final : public component::Component, private component::Observer 
   void object_to_files(const std::vector<component::Component*>& components,
                        std::vector<Objection>& objections) const;
   std::vector<std::string> files() const;
+  void object_to_robot(const std::vector<component::Component*>& components,
+                       std::vector<Objection>& objections) const;
+  void follow_robot(const component::Surroundings& surroundings);
   void follow(const Source& source);
   void follow_port(const component::PortBase& named, std::string name,
                    component::OutputPortBase& output);
   base::Result<void> open_sinks();
-  base::Result<void> add_sink(const std::string& path, const Sink::Open& open);
+  base::Result<void> add_sink(const std::string& path, const Sink::Open& open,
+                              const std::vector<record::Channel>& channels);
+  record::McapWriter::Options mcap_options() const;
+  void write_robot(base::Time time);
   std::string placed(const std::string& file) const;
 
   void collect();
@@ -85,6 +102,20 @@ class Reporter final : public component::Component, private component::Observer 
   component::Property<bool> on_change_{this, "on_change", false,
                                        "leaves out samples that equal the one before"};
   component::Property<std::string> file_{this, "file", "", "MCAP file; empty: none"};
+  component::Property<RecordingProfile> profile_{
+      this, "profile", RecordingProfile::kNone,
+      "of the MCAP file: ros2 has messages of ROS 2 in CDR, none JSON"};
+  component::Property<RecordingCompression> compression_{
+      this, "compression", RecordingCompression::kNone, "of the MCAP file's chunks"};
+  component::Property<bool> metadata_{
+      this, "metadata", false,
+      "the MCAP file tells by which deployment, version and machine it was made"};
+  component::Property<std::vector<std::string>> joints_{
+      this,
+      "joints",
+      {},
+      "ports with the positions of the joints of the robot that the deployment describes, in their "
+      "order: the MCAP file has its frames (/tf) as well; empty: none"};
   component::Property<std::string> csv_{this, "csv", "", "CSV file; empty: none"};
   component::Property<bool> console_{this, "console", false, "prints each sample"};
   component::Property<int> buffer_{this, "buffer",
@@ -97,6 +128,10 @@ class Reporter final : public component::Component, private component::Observer 
       this, "not_written", 0, "samples that a file did not take, of all files"};
 
   std::string folder_;
+  std::optional<RobotTrack> robot_;
+  std::map<record::ChannelId, std::size_t> robot_ports_;  ///< which of the robot's positions
+  std::string robot_trouble_;                             ///< why there is none
+  Sink* robot_sink_ = nullptr;
   std::vector<record::Channel> channels_;
   std::vector<Track> tracks_;  ///< of each channel
   std::vector<Sink> sinks_;

@@ -39,6 +39,9 @@ inline constexpr std::size_t kDataEndRecord = kRecordHead + 4;
 
 inline constexpr std::string_view kMessageEncoding = "json";
 inline constexpr std::string_view kSchemaEncoding = "jsonschema";
+inline constexpr std::string_view kRosProfile = "ros2";
+inline constexpr std::string_view kCdrEncoding = "cdr";
+inline constexpr std::string_view kRosSchemaEncoding = "ros2msg";
 
 /// The CRC-32 of what `crc` is the one of, followed by `bytes`; of nothing it is 0.
 std::uint32_t crc32(std::uint32_t crc, std::string_view bytes);

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "armature/foxglove/server.hpp"
 #include "armature/ride/policy.hpp"
 #include "armature/studio/internal/operators_bench.hpp"
 
@@ -67,11 +68,13 @@ std::optional<Entrance> make_entrance(const ServerOptions& options, const std::s
   } else {
     diagnostics.error({}, "another studio has '" + options.file + "' open: " + lock.error());
   }
+  entrance.messages = foxglove::make_messages();
   entrance.transport =
       websocket::make_transport({.pages = options.pages,
                                  .certificate = options.certificate,
                                  .key = options.key,
-                                 .secrets = (fs::path(entrance.folder) / "entry").string()},
+                                 .secrets = (fs::path(entrance.folder) / "entry").string(),
+                                 .messages = entrance.messages},
                                 diagnostics);
   entrance.node.name = "studio";
   entrance.node.log = options.log;

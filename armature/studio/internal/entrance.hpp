@@ -20,6 +20,7 @@ inline constexpr const char* kRunName = "run";
 struct Entrance {
   std::string folder;
   std::optional<platform::FolderLock> lock;
+  std::shared_ptr<websocket::Messages> messages;  ///< of Foxglove's clients
   std::shared_ptr<websocket::Transport> transport;
   ride::NodeOptions node;
 };

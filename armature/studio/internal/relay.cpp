@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/foxglove/server.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/remote/inspector.hpp"
 #include "inspection_types.hpp"
@@ -29,6 +30,10 @@ std::string_view name_in(std::string_view canonical) {
   return before.substr(before.find_last_of(' ') + 1);
 }
 
+bool is_foxglove(const ride::Origin& origin) {
+  return origin.who() == std::string(foxglove::kIdentity) + "@web";
+}
+
 /// What whoever asks may do to the component that it asks about, as the inspector demands it: that
 /// anybody may ask is all that its interface says.
 ride::Access access_of(const ride::Declaration& declaration) {
@@ -40,6 +45,14 @@ ride::Access access_of(const ride::Declaration& declaration) {
     if (name == commands) return ride::Access::kCommand;
   }
   return declaration.access;
+}
+
+/// Of an operation of the inspector.
+ride::Access access_named(std::string_view name) {
+  const auto& all = remote::kInspector.declarations;
+  const auto found = std::ranges::find(
+      all, name, [](const ride::Declaration& one) { return name_in(one.canonical); });
+  return access_of(*found);
 }
 
 /// The number of an operation of the inspector.
@@ -308,6 +321,10 @@ bool Relay::may_pass(Learned& learned, std::string_view operation, std::span<con
                      const ride::Origin& origin) {
   const bool called = operation == "call" || operation == "begin";
   const bool written = operation == "write";
+  const bool foxglove = is_foxglove(origin);
+  if (foxglove && !written && access_named(operation) != ride::Access::kRead) {
+    throw ride::Failure("nothing is called, begun, started or paced by Foxglove");
+  }
   ride::Decoder names(body);
   std::string component_or_item;
   std::string member;
@@ -323,9 +340,21 @@ bool Relay::may_pass(Learned& learned, std::string_view operation, std::span<con
                 component_or_item + "." + member, true, origin);
   } else if (written) {
     let_through(learned.acts.of_item(component_or_item), component_or_item, false, origin);
+    if (foxglove) demand_seat(component_or_item, origin);
   }
   learned.waiting.push_back(origin);
   return true;
+}
+
+/// It shows no operator what else the robot does: it sets nothing beside who sits there.
+void Relay::demand_seat(const std::string& what, const ride::Origin& origin) {
+  const auto sits = seat_.demand(origin);
+  if (!sits) {
+    throw ride::Failure("'" + what +
+                        "' is set by Foxglove from the operator's seat only, which is handed over "
+                        "in the studio: " +
+                        sits.error());
+  }
 }
 
 void Relay::let_through(Act act, const std::string& what, bool with_key,

@@ -103,6 +103,7 @@ class Relay final : public ride::Service {
                           std::span<const std::byte> body, ride::Reply& reply);
   bool may_pass(Learned& learned, std::string_view operation, std::span<const std::byte> body,
                 const ride::Origin& origin);
+  void demand_seat(const std::string& what, const ride::Origin& origin);
   void let_through(Act act, const std::string& what, bool with_key, const ride::Origin& origin);
   static void ask_about(Connection& run, std::string_view operation, std::int32_t handle,
                         ride::Priority priority,

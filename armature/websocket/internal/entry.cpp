@@ -66,9 +66,17 @@ std::string Entry::cookie() const {
          (names_.encrypted ? "; Secure" : "");
 }
 
-std::string Entry::url(const std::string& preferred) const {
+const std::string& Entry::shown_host(const std::string& preferred) const {
   const bool known = std::ranges::count(names_.hosts, preferred) > 0;
-  return scheme(names_) + (known ? preferred : names_.hosts.front()) + port_ + "/#" + token_;
+  return known ? preferred : names_.hosts.front();
+}
+
+std::string Entry::url(const std::string& preferred) const {
+  return scheme(names_) + shown_host(preferred) + port_ + "/#" + token_;
+}
+
+std::string Entry::socket_url(const std::string& preferred) const {
+  return (names_.encrypted ? "wss://" : "ws://") + shown_host(preferred) + port_;
 }
 
 std::string Entry::content_policy() const {

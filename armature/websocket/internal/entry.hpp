@@ -43,12 +43,16 @@ class Entry {
   /// Where the first page is, by the first of its names or `preferred` if that is one of them. It
   /// has the token.
   std::string url(const std::string& preferred) const;
+  /// Likewise for sockets, without a token: `ws://127.0.0.1:8080`.
+  std::string socket_url(const std::string& preferred) const;
   /// What the token is exchanged for: no script can read it, no other site sends it.
   std::string cookie() const;
   /// The sources that pages of this address may use.
   std::string content_policy() const;
 
  private:
+  const std::string& shown_host(const std::string& preferred) const;
+
   const Names names_;
   const std::string port_;  ///< `:8080`; nothing if browsers leave it out
   const std::string token_;

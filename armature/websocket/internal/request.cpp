@@ -26,6 +26,8 @@ Visitor visitor_of(lws* request) {
           header(request, WSI_TOKEN_HTTP_AUTHORIZATION), header(request, WSI_TOKEN_HTTP_COOKIE)};
 }
 
+std::string path_of(lws* request) { return header(request, WSI_TOKEN_GET_URI); }
+
 int answer(lws* request, unsigned status, const std::string& cookie) {
   std::vector<unsigned char> room(LWS_PRE + kMostHeaderBytes);
   unsigned char* const begin = room.data() + LWS_PRE;

@@ -13,6 +13,8 @@ namespace armature::websocket::internal {
 
 /// What the library has parsed of the headers of a request.
 Visitor visitor_of(lws* request);
+/// Of a request for something, and so of one for a socket: `/foxglove/...`.
+std::string path_of(lws* request);
 
 // Answers to a request. Each returns what the library's callback is to return.
 

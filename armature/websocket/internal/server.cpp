@@ -22,6 +22,7 @@ using platform::StreamSocket;
 /// A request that is not complete then, and a connection without any, ends.
 constexpr unsigned kMostSeconds = 5;
 constexpr std::size_t kSecretBytes = 16;
+constexpr std::size_t kPieceBytes = 16 * 1024;
 /// Of the library: each visitor, its bridge, and what it has itself.
 constexpr unsigned kHandlesBeside = 16;
 
@@ -37,18 +38,6 @@ const lws_protocol_vhost_options* headers(const std::string& content_policy,
 bool is_secret(const std::string& text) {
   return text.size() == 2 * kSecretBytes &&
          text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
-/// Token and pass of an earlier start. A file that is damaged is as good as none.
-std::optional<std::pair<std::string, std::string>> secrets_in(const std::string& path) {
-  constexpr std::size_t kLine = 2 * kSecretBytes + 1;
-  const auto text = platform::read_file(path, 2 * kLine);
-  if (!text || text.value().size() != 2 * kLine) return std::nullopt;
-  std::pair found{text.value().substr(0, kLine - 1), text.value().substr(kLine, kLine - 1)};
-  if (!is_secret(found.first) || !is_secret(found.second) || found.first == found.second) {
-    return std::nullopt;
-  }
-  return found;
 }
 
 bool is_encrypted(const Options& options) { return !options.certificate.empty(); }
@@ -91,6 +80,20 @@ Names names(const Options& options, const std::vector<std::string>& hosts, std::
 
 }  // namespace
 
+/// Those of an earlier start. A file that is damaged is as good as none.
+std::optional<Server::Secrets> Server::secrets_in(const std::string& path) {
+  constexpr std::size_t kLine = 2 * kSecretBytes + 1;
+  const auto text = platform::read_file(path, 3 * kLine);
+  if (!text || text.value().size() != 3 * kLine) return std::nullopt;
+  const auto line = [&](std::size_t at) { return text.value().substr(at * kLine, kLine - 1); };
+  Secrets found{line(0), line(1), line(2)};
+  const bool different = found.token != found.pass && found.token != found.message_key &&
+                         found.pass != found.message_key;
+  const bool good =
+      is_secret(found.token) && is_secret(found.pass) && is_secret(found.message_key) && different;
+  return good ? std::optional(std::move(found)) : std::nullopt;
+}
+
 base::Result<std::unique_ptr<Server>> Server::listen(const ride::Address& address,
                                                      const Options& options, const Pages& pages,
                                                      const std::vector<std::string>& hosts) {
@@ -117,6 +120,7 @@ Server::~Server() {
   ends_ = true;
   if (context_ != nullptr) lws_cancel_service(context_);
   thread_.reset();
+  correspondents_.clear();  // from here on nobody rings
   if (context_ != nullptr) lws_context_destroy(context_);
 }
 
@@ -130,6 +134,10 @@ base::Result<void> Server::begin(const std::vector<std::string>& hosts) {
   listening_ =
       lws_adopt_descriptor_vhost(vhost_, LWS_ADOPT_RAW_FILE_DESC, descriptor, "ride", nullptr);
   if (listening_ == nullptr) return base::Error{"the server of pages has no handle left"};
+  if (options_.messages != nullptr) {
+    options_.messages->add_address(entry_->socket_url(in_brackets(address_.host)) +
+                                   options_.messages->options().path + message_key_);
+  }
   platform::ThreadRequest request;
   request.name = "pages";
   thread_ = std::make_unique<platform::Thread>(request, [this] { run(); });
@@ -138,11 +146,15 @@ base::Result<void> Server::begin(const std::vector<std::string>& hosts) {
 
 base::Result<void> Server::make_context(const std::vector<std::string>& hosts) {
   lws_set_log_level(0, nullptr);
-  static const lws_protocols kProtocols[] = {{"ride", &Server::told, 0, 16 * 1024, 0, nullptr, 0},
-                                             {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
+  protocols_[0] = {"ride", &Server::told, 0, kPieceBytes,
+                   0,      nullptr,       0};  // unless one is asked for
+  if (options_.messages != nullptr) {
+    const char* const name = options_.messages->options().subprotocol.c_str();
+    protocols_[1] = {name, &Server::told, 0, kPieceBytes, 0, nullptr, 0};
+  }
   lws_context_creation_info info{};
   info.port = CONTEXT_PORT_NO_LISTEN_SERVER;
-  info.protocols = kProtocols;
+  info.protocols = protocols_.data();
   info.user = this;
   info.gid = info.uid = static_cast<decltype(info.uid)>(-1);
   info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS;
@@ -153,7 +165,8 @@ base::Result<void> Server::make_context(const std::vector<std::string>& hosts) {
   if (context_ == nullptr) return base::Error{"the server of pages cannot be made"};
   auto secrets = kept_or_new_secrets();
   if (!secrets) return base::Error{secrets.error()};
-  auto& [token, pass] = secrets.value();
+  auto& [token, pass, message_key] = secrets.value();
+  message_key_ = std::move(message_key);
   entry_.emplace(names(options_, hosts, address_.port), std::move(token), std::move(pass));
   content_policy_ = entry_->content_policy();
   info.headers = headers(content_policy_, header_room_);
@@ -167,13 +180,15 @@ base::Result<Server::Secrets> Server::kept_or_new_secrets() const {
   if (keeps) {
     if (auto kept = secrets_in(options_.secrets)) return *std::move(kept);
   }
-  auto token = secret();
-  auto pass = secret();
-  if (!token || !pass) return base::Error{token ? pass.error() : token.error()};
-  Secrets made{std::move(token).value(), std::move(pass).value()};
+  Secrets made;
+  for (std::string* const one : {&made.token, &made.pass, &made.message_key}) {
+    auto text = secret();
+    if (!text) return base::Error{text.error()};
+    *one = std::move(text).value();
+  }
   if (!keeps) return made;
-  const auto written =
-      platform::write_file(options_.secrets, made.first + "\n" + made.second + "\n");
+  const auto written = platform::write_file(
+      options_.secrets, made.token + "\n" + made.pass + "\n" + made.message_key + "\n");
   if (!written) return base::Error{written.error()};
   return made;
 }
@@ -234,14 +249,34 @@ int Server::told(lws* connection, lws_callback_reasons reason, void* in, std::si
       return told_of_page(connection, reason, in, size);
     case LWS_CALLBACK_HTTP:
       return answer_request(connection, static_cast<const char*>(in), *entry_, pages_);
-    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
-      return may_open(connection) ? 0 : answer(connection, HTTP_STATUS_FORBIDDEN);
+    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: {
+      const bool may =
+          speaks_messages(connection) ? may_correspond(connection) : may_open(connection);
+      return may ? 0 : answer(connection, HTTP_STATUS_FORBIDDEN);
+    }
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+      look_at_correspondents();
+      return 0;
     case LWS_CALLBACK_WSI_DESTROY:
       visitors_.erase(connection);
       return 0;
     default:
       return lws_callback_http_dummy(connection, reason, nullptr, in, size);
   }
+}
+
+bool Server::speaks_messages(lws* visitor) const {
+  const lws_protocols* const spoken = lws_get_protocol(visitor);
+  return options_.messages != nullptr && spoken != nullptr && spoken->name == protocols_[1].name;
+}
+
+/// The secret is in the address, which no page elsewhere knows, and which no browser sends by
+/// itself: so it does not matter from where the page is that asks.
+bool Server::may_correspond(lws* visitor) const {
+  const std::string path = path_of(visitor);
+  const std::string& begin = options_.messages->options().path;
+  return entry_->knows_host(visitor_of(visitor)) && path.starts_with(begin) &&
+         is_same_secret(std::string_view(path).substr(begin.size()), message_key_);
 }
 
 /// Who brings the token or a certificate needs no cookie: browsers let no page send the one, and
@@ -259,7 +294,12 @@ std::string Server::proven_name(lws* visitor) const {
 }
 
 int Server::told_of_page(lws* page, lws_callback_reasons reason, void* in, std::size_t size) {
-  if (reason == LWS_CALLBACK_ESTABLISHED) return open(page) ? 0 : -1;
+  if (reason == LWS_CALLBACK_ESTABLISHED) {
+    return (speaks_messages(page) ? open_messages(page) : open(page)) ? 0 : -1;
+  }
+  if (const auto found = correspondents_.find(page); found != correspondents_.end()) {
+    return told_of_correspondent(found, reason, in, size);
+  }
   const auto found = bridges_.find(page);
   if (found == bridges_.end()) return -1;
   if (reason == LWS_CALLBACK_CLOSED) {
@@ -271,6 +311,23 @@ int Server::told_of_page(lws* page, lws_callback_reasons reason, void* in, std::
                            ? bridge.page_sent({static_cast<const std::byte*>(in), size})
                            : bridge.page_takes();
   return goes_on ? 0 : -1;
+}
+
+int Server::told_of_correspondent(Correspondents::iterator who, lws_callback_reasons reason,
+                                  void* in, std::size_t size) {
+  if (reason == LWS_CALLBACK_CLOSED) {
+    correspondents_.erase(who);
+    return 0;
+  }
+  Correspondent& correspondent = *who->second;
+  const bool goes_on = reason == LWS_CALLBACK_RECEIVE
+                           ? correspondent.sent({static_cast<const std::byte*>(in), size})
+                           : correspondent.takes();
+  return goes_on ? 0 : -1;
+}
+
+void Server::look_at_correspondents() {
+  for (const auto& [socket, correspondent] : correspondents_) correspondent->look();
 }
 
 int Server::told_of_socket(lws* socket, lws_callback_reasons reason) {
@@ -308,12 +365,29 @@ bool Server::open(lws* page) {
   auto bridge = std::make_unique<Bridge>(page, std::move(inner), options_);
   if (!bridge->watch(vhost_)) return false;
   bridges_[page] = std::move(bridge);
+  hand_to_node(ride::make_connection(std::move(outer), name.empty() ? "page" : name + "@tls"));
+  return true;
+}
+
+void Server::hand_to_node(std::unique_ptr<ride::Connection> connection) {
   const std::lock_guard lock(mutex_);
-  accepted_.push_back(
-      ride::make_connection(std::move(outer), name.empty() ? "page" : name + "@tls"));
+  accepted_.push_back(std::move(connection));
   const std::byte ring{};
   std::size_t sent = 0;
   static_cast<void>(ringer_->send(std::span(&ring, 1), sent));
+}
+
+bool Server::open_messages(lws* visitor) {
+  Messages& messages = *options_.messages;
+  auto pair = StreamSocket::make_pair("a client of " + messages.options().subprotocol);
+  if (!pair) return false;
+  auto& [inner, outer] = pair.value();
+  const auto client = messages.enter([this] { lws_cancel_service(context_); },
+                                     ride::make_connection(std::move(inner)));
+  if (!client) return false;
+  hand_to_node(ride::make_connection(std::move(outer), messages.options().identity));
+  correspondents_[visitor] =
+      std::make_unique<Correspondent>(visitor, messages, *client, options_.time_to_take);
   return true;
 }
 

@@ -48,15 +48,43 @@ bool takes_commands(const Component& component) {
                              });
 }
 
+/// `N m` of `torque [N m]`; empty if it has no unit.
+std::string_view unit_of(std::string_view argument) {
+  const std::size_t open = argument.find(" [");
+  if (open == std::string_view::npos || !argument.ends_with(']')) return {};
+  return argument.substr(open + 2, argument.size() - open - 3);
+}
+
+bool takes_effort(const component::OperationBase& operation) {
+  return std::ranges::any_of(operation.signature().arguments, [](const auto& each) {
+    return is_effort(unit_of(each.name)) || has_effort(*each.type);
+  });
+}
+
+void tell(const Component& owner, std::string_view member, component::Check& check) {
+  check.error("what comes from ROS 2 leads to the effort '" + owner.name() + "." +
+                  std::string(member) + "'",
+              "connect it to a generator of motions or to a chassis, which keep limits");
+}
+
+/// Whether a component that was reached gives an effort by a call, which is told.
+bool calls_are_told(const Component& component, component::Check& check) {
+  for (const auto* caller : component::interface_of(component).callers) {
+    const component::OperationBase* const target = check.target_of(*caller);
+    if (target == nullptr || !takes_effort(*target)) continue;
+    tell(target->owner(), target->name(), check);
+    return true;
+  }
+  return false;
+}
+
 /// Whether it is an effort, which is told; goes on behind it where its component hands on what it
 /// is given.
 bool is_told(const component::InputPortBase& input, std::vector<const Component*>& reached,
              component::Check& check) {
   const Component& reader = input.owner();
   if (moves(input)) {
-    check.error("what comes from ROS 2 leads to the effort '" + reader.name() + "." +
-                    std::string(input.name()) + "'",
-                "connect it to a generator of motions or to a chassis, which keep limits");
+    tell(reader, input.name(), check);
     return true;
   }
   if (!takes_commands(reader) && std::ranges::find(reached, &reader) == reached.end()) {
@@ -68,6 +96,7 @@ bool is_told(const component::InputPortBase& input, std::vector<const Component*
 /// Tells of the first effort that the components reach.
 void check_from(std::vector<const Component*> reached, component::Check& check) {
   for (std::size_t i = 0; i < reached.size(); ++i) {
+    if (calls_are_told(*reached[i], check)) return;
     for (const auto* output : component::interface_of(*reached[i]).outputs) {
       for (const auto* input : check.readers_of(*output)) {
         if (is_told(*input, reached, check)) return;

@@ -11,6 +11,7 @@
 #include "armature/studio/internal/elsewhere/bench.hpp"
 #include "armature/studio/internal/entrance.hpp"
 #include "armature/studio/internal/every.hpp"
+#include "armature/studio/internal/foxglove_companion.hpp"
 #include "armature/studio/internal/relay.hpp"
 
 namespace armature::studio::internal {
@@ -35,6 +36,7 @@ class ElsewhereServer final : public Server {
                   std::unique_ptr<platform::Poller> poller, std::unique_ptr<Elsewhere> application)
       : lock_(std::move(*entrance.lock)),
         poller_(std::move(poller)),
+        messages_(std::move(entrance.messages)),
         transport_(std::move(entrance.transport)),
         checker_(checker_command(options)),
         application_(std::move(application)),
@@ -43,7 +45,8 @@ class ElsewhereServer final : public Server {
         bench_(
             *application_, checker_, [this] { return relay_.ready(); }, seat_, stops_, queue_,
             [this] { poller_->wake(); }),
-        node_(std::move(entrance.node)) {}
+        node_(std::move(entrance.node)),
+        foxglove_(messages_, foxglove_options()) {}
 
   ~ElsewhereServer() override {
     queue_.close();
@@ -64,6 +67,7 @@ class ElsewhereServer final : public Server {
   }
 
   std::vector<std::string> pages() const override { return transport_->pages(); }
+  std::vector<std::string> foxglove() const override { return messages_->addresses(); }
 
   void serve(base::Duration limit) override {
     watch_checker();
@@ -108,6 +112,7 @@ class ElsewhereServer final : public Server {
 
   const platform::FolderLock lock_;
   const std::unique_ptr<platform::Poller> poller_;
+  const std::shared_ptr<websocket::Messages> messages_;
   const std::shared_ptr<websocket::Transport> transport_;
   int watched_ = 0;  ///< the checker's process
   Every look_{kLookPeriod};
@@ -121,6 +126,7 @@ class ElsewhereServer final : public Server {
   EmergencyStops stops_;
   ElsewhereBench bench_;
   ride::Node node_;
+  foxglove::Server foxglove_;
 };
 
 }  // namespace

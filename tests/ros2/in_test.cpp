@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Fast DDS writes, as the components of the library ros2 obey or refuse it.
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "talk.hpp"
+
+namespace armature::ros2 {
+namespace {
+
+using ::testing::ElementsAre;
+
+geometry_msgs::msg::dds_::Twist_ twist(double forward, double turn) {
+  geometry_msgs::msg::dds_::Twist_ message;
+  message.linear().x(forward);
+  message.linear().y(0.2);
+  message.linear().z(0.3);
+  message.angular().x(0.4);
+  message.angular().y(0.5);
+  message.angular().z(turn);
+  return message;
+}
+
+TEST(In, ATwistIsObeyedOrRefusedAsAWhole) {
+  Talk talk(
+      deployment("Operator: {model: Operator, activity: {periodic: 2 ms}}\nros: Twist:\n    model: "
+                 "Twist\n    peers: [Operator]\n    properties: {max_linear: 0.6, max_angular: "
+                 "2.0, track: 0.5}\n"));
+  auto& writer = *talk.peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel");
+  talk.send(writer, twist(0.5, 1.0), "Twist");
+  const auto port = [&](const char* name) { return talk.robot.value<double>("Twist", name); };
+  EXPECT_EQ(port("LinearX"), 0.5);
+  EXPECT_EQ(port("LinearY"), 0.2);
+  EXPECT_EQ(port("LinearZ"), 0.3);
+  EXPECT_EQ(port("AngularX"), 0.4);
+  EXPECT_EQ(port("AngularY"), 0.5);
+  EXPECT_EQ(port("AngularZ"), 1.0);
+  EXPECT_EQ(port("Left"), 0.25);
+  EXPECT_EQ(port("Right"), 0.75);
+  const std::uint64_t received = talk.count("Twist", "Received");
+  for (const auto& wrong :
+       {twist(0.7, 0.1), twist(0.1, -2.1), twist(std::numeric_limits<double>::quiet_NaN(), 0.1),
+        twist(0.1, std::numeric_limits<double>::infinity())}) {
+    const std::uint64_t refused = talk.count("Twist", "Refused");
+    talk.send(writer, wrong, "Twist");
+    EXPECT_GT(talk.count("Twist", "Refused"), refused);
+    EXPECT_EQ(port("LinearX"), 0.5);
+    EXPECT_EQ(port("AngularZ"), 1.0);
+  }
+  EXPECT_EQ(talk.count("Twist", "Received"), received);
+  // One line of the log for all that is refused in a row.
+  EXPECT_EQ(talk.robot.log.find("refused a message"), talk.robot.log.rfind("refused a message"))
+      << talk.robot.log;
+}
+
+TEST(In, NobodyIsHeardAfterTheOperatorArmsOrStopsBeforeThereWasSilence) {
+  Talk talk(
+      deployment("Operator: {model: Operator, activity: {periodic: 2 ms}}\n"
+                 "ros: Twist:\n    model: Twist\n    peers: [Operator]\n    properties: "
+                 "{max_silence: 1 s}\n"));
+  talk.robot.run_for(500ms);
+  auto& writer = *talk.peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel");
+  talk.send(writer, twist(0.5, 1.0), "Twist");
+  const std::uint64_t received = talk.count("Twist", "Received");
+  EXPECT_GT(received, 0u);
+  for (const char* act : {"arm", "stop"}) {
+    EXPECT_EQ(talk.robot.call("Operator", act), "");
+    talk.robot.run_for(4ms);
+    const std::uint64_t refused = talk.count("Twist", "Refused");
+    talk.send(writer, twist(0.25, 1.0), "Twist");
+    EXPECT_GT(talk.count("Twist", "Refused"), refused);
+    EXPECT_EQ(talk.robot.value<double>("Twist", "LinearX"), 0.5);
+  }
+  EXPECT_EQ(talk.count("Twist", "Received"), received);
+  talk.robot.run_for(1100ms);
+  talk.send(writer, twist(0.25, 1.0), "Twist");
+  EXPECT_EQ(talk.robot.value<double>("Twist", "LinearX"), 0.25);
+}
+
+TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
+  Talk talk(
+      deployment("ros: Joy:\n    model: Joy\n    properties: {axes: 2, buttons: 1}\n"
+                 "ros: Numbers:\n    model: Float64MultiArray\n    properties: {topic: wanted, "
+                 "size: 2, lower: [-1], upper: [1, 2]}\n"));
+  auto& joys = *talk.peer.write_to<sensor_msgs::msg::dds_::Joy_PubSubType>("rt/joy");
+  sensor_msgs::msg::dds_::Joy_ joy;
+  joy.header().stamp().sec(5);
+  joy.axes({0.5f, -1.0f});
+  joy.buttons({1});
+  talk.send(joys, joy, "Joy");
+  EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.5, -1.0));
+  EXPECT_THAT(talk.robot.value<std::vector<int>>("Joy", "Buttons"), ElementsAre(1));
+  std::vector<sensor_msgs::msg::dds_::Joy_> wrong(4, joy);
+  wrong[0].axes({0.1f});
+  wrong[1].buttons({0, 0});
+  wrong[2].axes({0.1f, 1.5f});
+  wrong[3].axes({0.1f, 0.1f});
+  wrong[3].header().stamp().sec(4);
+  for (const auto& each : wrong) {
+    const std::uint64_t refused = talk.count("Joy", "Refused");
+    talk.send(joys, each, "Joy");
+    EXPECT_GT(talk.count("Joy", "Refused"), refused);
+  }
+  EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.5, -1.0));
+
+  auto& arrays =
+      *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
+  std_msgs::msg::dds_::Float64MultiArray_ array;
+  array.data({-1.0, 2.0});
+  talk.send(arrays, array, "Numbers");
+  EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
+  for (const std::vector<double>& each :
+       {std::vector<double>{0.0}, {0.0, 2.1}, {-1.1, 0.0}, {0.0, std::nan("")}}) {
+    const std::uint64_t refused = talk.count("Numbers", "Refused");
+    array.data(each);
+    talk.send(arrays, array, "Numbers");
+    EXPECT_GT(talk.count("Numbers", "Refused"), refused);
+  }
+  EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
+}
+}  // namespace
+}  // namespace armature::ros2
