@@ -68,13 +68,15 @@ Outcome Joint::on_start() {
     return component::refused("the event Arm comes from '" + arming_->name() +
                               "' in another process: let an Arming in its own process arm it");
   }
-  if (settings_->homing_required && !is_homed_.bound()) {
+  if (settings_->homing_required && homes_by_hardware() && !is_homed_.bound()) {
     return component::refused("HomingRequired is set, and '" + peer_name_.get() +
-                              "' does not home by itself: leave it out");
+                              "' does not home by itself: set HomingMethod, or leave it out");
   }
   started_ = time();
   intervals_.begin(period_.duration());
   measured_since_start_ = false;
+  homed_now_ = homing_failed_ = false;
+  homed_.assign(false);
   if (absolute_) absolute_->reset();
   switch_off();
   kept_.note_start();
@@ -124,6 +126,7 @@ Outcome Joint::set_up() {
   if (!watch) return component::refused(watch.error());
   auto absolute = control::AbsolutePosition::make(absolute_sensor());
   if (!absolute) return component::refused(absolute.error());
+  if (Outcome outcome = own_.set_up(period_.duration()); !outcome) return outcome;
   limiter_ = limiter.value();
   absolute_ = absolute.value();
   following_ = control::FollowingWatch(
@@ -263,8 +266,12 @@ void Joint::moved(double displacement, double to) {
   measured_at_ = time();
   measured_since_start_ = true;
   displacement_read_ = displacement;
+  const bool homes_by_itself = phase_ == Phase::kHoming && !homes_by_hardware();
+  if (homes_by_itself) follow_own_homing(displacement);  // which may say where it is
   displacement_.write(displacement);
   position_.write(measured_.position);
+  if (homed_now_) tell_homed();
+  if (homes_by_itself) return;
   if (off_at_rest_) cut_power_at_rest();
   if (phase_ == Phase::kDisarmed) {
     note_sinking(displacement);

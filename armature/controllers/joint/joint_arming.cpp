@@ -34,11 +34,17 @@ void Joint::on_arm() {
   }
   if (position_known_.bound() && !succeeds(position_known_)) {
     if (kept_.is_doubtful()) return fail_to_arm(kept_.question(told(measured_.position)));
+    if (homing_failed_) {
+      return fail_to_arm(
+          "it has begun to home, and has not found home: call its command home, or look whether it "
+          "is where its Position says, then set position_confirmed of its hardware");
+    }
     return fail_to_arm(
         "a sample of it was lost for good: look whether it is where its Position says, then set "
         "position_confirmed of its hardware");
   }
   kept_.be_sure();
+  homing_failed_ = false;
   if (!measured_lately()) {
     return fail_to_arm("it was not measured in this sampling period");
   }
@@ -238,9 +244,9 @@ void Joint::note_sinking(double displacement) {
 /// Hardware that moves by itself does not brake because its effort is 0.
 /// @return the brake is applied
 bool Joint::disarm() {
-  if (phase_ == Phase::kHoming) return switch_off();
+  if (phase_ == Phase::kHoming && homes_by_hardware()) return switch_off();
   const bool turns = std::abs(measured_.velocity) > kRest;
-  if (limiter_->armed() && measured_lately() && turns) {
+  if ((limiter_->armed() || own_.armed()) && measured_lately() && turns) {
     off_at_rest_ = true;
     disarmed_at_ = time();
   }
@@ -253,14 +259,15 @@ bool Joint::disarm() {
 bool Joint::brake_at_once() {
   const bool was_homing = phase_ == Phase::kHoming;
   const bool was_armed = phase_ == Phase::kArmed;
-  const bool was_driven = limiter_->armed();
+  const bool was_driven = limiter_->armed() || own_.armed();
   if (phase_ != Phase::kDisarmed) {
     sunk_.assign(0.0);
     told_of_sinking_ = false;
   }
   phase_ = Phase::kDisarmed;
   limiter_->disarm();
-  if (was_homing && home_.active()) home_.fail("disarmed, so it does not home");
+  own_.disarm();
+  if (was_homing && !homed_now_ && home_.active()) home_.fail("disarmed, so it does not home");
   stand_still();
   const bool braked = !brake_ || succeeds(apply_brake_);
   armed_.write(false);
