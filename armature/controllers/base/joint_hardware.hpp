@@ -171,10 +171,13 @@ class JointHardware : public component::Component {
   bool switch_on(control::DrivePermit permit) {
     if (!runs()) return false;
     permit_ = permit;
-    return permit && actuator_on();
+    if (!permit) return false;
+    switched_on_.assign(true);
+    return actuator_on();
   }
   bool switch_off() {
     const bool off = actuator_off();
+    if (off) switched_on_.assign(false);
     permit_ = {};
     if (is_bounded_) bound_effort(std::numeric_limits<double>::infinity());
     is_bounded_ = false;
@@ -285,6 +288,8 @@ class JointHardware : public component::Component {
       component::args("permit"),
       component::in_own_thread};
 
+  component::Attribute<bool> switched_on_{
+      this, "switched_on", false, "its actuator was told to be on, and has not taken to be off"};
   control::DrivePermit permit_;
   int refused_ = 0;  ///< commands in a row, while it is on
   Ending ending_{*this};

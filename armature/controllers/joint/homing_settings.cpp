@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/component/interface.hpp"
-#include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/joint/joint_model.hpp"
 
 namespace armature::controllers {
@@ -188,7 +189,40 @@ void HomingProperties::check(component::Check& check) const {
                        ", and what its sensor is of does not say what it can be homed by: extend "
                        "JointHardware");
   }
-  if (const std::string wrong = objection_to(*hardware); !wrong.empty()) check.error(wrong);
+  if (const std::string wrong = objection_to(*hardware); !wrong.empty()) {
+    return check.error(wrong);
+  }
+  if (!is_effort(command_)) return;
+  for (const DrivenJoint& joint :
+       dynamic_cast<DrivesJoints&>(owner_).joints_behind(nullptr, check)) {
+    if (const std::string wrong = objection_to(joint); !wrong.empty()) check.error(wrong);
+  }
+}
+
+/// As a controller that holds the joint by its gains alone.
+std::string HomingProperties::objection_to(const DrivenJoint& joint) const {
+  const std::string torques = unit_for("Nm", joint.unit);
+  const double torque = joint.lightest.torque_per_effort * get().effort;
+  if (torque < joint.most_weight) {
+    return "HomingEffort is " + figure(get().effort) + ": its torque is " + figure(torque) + " " +
+           torques + ", and the joint weighs up to " + figure(joint.most_weight) + " " + torques;
+  }
+  const double sag = joint.most_weight / (joint.lightest.torque_per_effort * get().stiffness);
+  if (sag > joint_->arming_motion) {
+    return "HomingStiffness is " + figure(get().stiffness) + " and lets its weight of " +
+           figure(joint.most_weight) + " " + torques + " move it by " + figure(sag) + " " +
+           joint.unit + " when its brake opens, expected less than ArmingMotion, " +
+           figure(joint_->arming_motion);
+  }
+  const double period_s = base::to_seconds(owner_.period());
+  if (period_s <= 0.0) return {};
+  const auto loop = control::SampledController::of(
+      control::SampledController::FilteredPd{.kp = get().stiffness,
+                                             .kd = get().damping,
+                                             .cutoff = std::numeric_limits<double>::infinity(),
+                                             .period_s = period_s});
+  const std::string wrong = objection_to_gains(joint, loop, period_s);
+  return wrong.empty() ? wrong : "HomingStiffness and HomingDamping: " + wrong;
 }
 
 }  // namespace armature::controllers

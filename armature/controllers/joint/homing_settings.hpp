@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/joint_hardware.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
 
@@ -58,8 +59,9 @@ class HomingProperties final : public component::Properties<HomingSettings>,
   std::string objection_to_effort() const;
   std::string objection_to_unused(const component::Check& check) const;
   std::string objection_to(const JointHardware& hardware) const;
+  std::string objection_to(const DrivenJoint& joint) const;
 
-  const component::Component& owner_;
+  component::Component& owner_;
   JointCommand command_;
   const JointProperties& joint_;
 };

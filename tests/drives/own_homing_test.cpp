@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joints that home by themselves, in each way that a drive is commanded: the arm of
+// examples/11_drives, whose encoders begin anywhere. Its first joint stands at -0.4 rad at first,
+// has a switch that is closed below -1.2 rad, index marks at -1.1 rad and each 0.4 rad, and stops
+// at 1.6 rad both ways; it weighs 2 Nm.
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/deploy/deployment.hpp"
+#include "armature/testing/deployed_robot.hpp"
+
+namespace armature::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using component::CommandStage;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kBegin = -0.4;
+constexpr double kTravel = 1.3;
+
+std::vector<std::string> effort_settings(const std::string& way) {
+  if (way == "voltage") {
+    return {"Joint1.HomingEffort=3 V", "Joint1.HomingStiffness=150", "Joint1.HomingDamping=4"};
+  }
+  if (way == "torque") {
+    return {"Joint1.HomingEffort=6 Nm", "Joint1.HomingStiffness=300", "Joint1.HomingDamping=14"};
+  }
+  return {};
+}
+
+deploy::Deployment load(const std::string& way, const std::vector<std::string>& settings) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, EXAMPLE_LIBRARY};
+  options.document.overrides = {"drive=CountingDrive", "Drive1.Begin=-0.4"};
+  for (const std::string& each : settings) options.document.overrides.push_back(each);
+  return deploy::load_deployment(EXAMPLES "/11_drives/" + way + ".yaml", options);
+}
+
+std::vector<std::string> settings_of(const std::string& way, const std::string& method) {
+  std::vector<std::string> all = effort_settings(way);
+  all.insert(all.end(), {"Joint1.HomingMethod=" + method, "Joint1.HomingVelocity=-0.2",
+                         "Joint1.HomingTravel=1.3 rad", "Joint1.HomingRequired=true"});
+  if (method == "hard_stop" && all.size() == 4) all.emplace_back("Joint1.HomingEffort=6 Nm");
+  return all;
+}
+
+class OwnHoming : public ::testing::TestWithParam<const char*> {
+ protected:
+  void start(const std::string& method, const std::string& home,
+             const std::vector<std::string>& more = {}) {
+    std::vector<std::string> settings = settings_of(GetParam(), method);
+    settings.push_back("Joint1.HomePosition=" + home);
+    settings.insert(settings.end(), more.begin(), more.end());
+    robot_ = std::make_unique<DeployedRobot>(load(GetParam(), settings));
+    ASSERT_EQ(robot_->start(), "");
+    run_for(100ms);
+  }
+  void begin() {
+    auto begun = application().begin("Joint1", "home", {});
+    ASSERT_TRUE(begun) << begun.error();
+    home_ = std::make_unique<component::CommandHandle>(std::move(begun).value());
+  }
+  /// On its way, at full speed.
+  void begin_and_move() {
+    begin();
+    run_for(1500ms);
+    ASSERT_FALSE(home_->ended()) << home_->reason();
+    ASSERT_LT(angle(), kBegin - 0.1) << "by itself";
+  }
+  CommandStage finish(base::Duration within = 70s) {
+    for (base::Duration passed{}; passed < within && !home_->ended(); passed += 10ms) run_for(10ms);
+    return home_->stage();
+  }
+  CommandStage home() {
+    begin();
+    return finish();
+  }
+  void run_for(base::Duration duration) {
+    for (base::Duration passed{}; passed < duration; passed += 5ms) {
+      robot_->run_for(5ms);
+      farthest_ = std::max(farthest_, std::abs(angle() - kBegin));
+      fastest_ = std::max(fastest_, std::abs(angle() - last_) / 0.005);
+      last_ = angle();
+    }
+  }
+  double angle() { return robot_->value<double>("Drive1", "angle"); }
+  double at() { return robot_->at(1); }
+  exec::Application& application() { return robot_->application(); }
+  void break_it(const std::string& what) { robot_->set("Drive1", "Fails", what); }
+  std::string reason() { return std::string(home_->reason()); }
+
+  /// Nobody knows where it is: it rests, and is not armed.
+  void expect_rest_unhomed(double most_travel = kTravel) {
+    EXPECT_NE(home_->stage(), CommandStage::kDone);
+    run_for(200ms);
+    const double there = angle();
+    run_for(2s);
+    EXPECT_NEAR(angle(), there, 1e-9) << "its brake is closed, and it does not begin again";
+    EXPECT_LE(farthest_, most_travel);
+    EXPECT_FALSE(robot_->value<bool>("Joint1", "homed"));
+    EXPECT_NE(robot_->arm(), CommandStage::kDone);
+    run_for(100ms);
+    EXPECT_NEAR(angle(), there, 1e-9);
+  }
+  void expect_home(double really, double within) {
+    ASSERT_EQ(home_->stage(), CommandStage::kDone) << reason() << "\n" << robot_->log;
+    EXPECT_NEAR(at(), angle(), within);
+    EXPECT_LT(std::abs(angle() - really), 0.1) << "it rests beside it";
+    EXPECT_LE(farthest_, kTravel);
+    EXPECT_LE(fastest_, 0.4);
+    EXPECT_FALSE(robot_->armed());
+    const double there = angle();
+    run_for(1s);
+    EXPECT_EQ(angle(), there) << "braked";
+    ASSERT_EQ(robot_->arm(), CommandStage::kDone) << robot_->reasons();
+    EXPECT_NEAR(angle(), there, 0.01) << "the controller begins where it is";
+    ASSERT_EQ(robot_->move_to({-0.2, 0.0}), CommandStage::kDone) << robot_->reasons();
+    run_for(500ms);
+    EXPECT_NEAR(angle(), -0.2, 0.01) << "really there";
+  }
+
+  std::unique_ptr<DeployedRobot> robot_;
+  std::unique_ptr<component::CommandHandle> home_;
+  double last_ = kBegin;
+  double farthest_ = 0.0;
+  double fastest_ = 0.0;
+};
+
+// --- finding it ------------------------------------------------------------------------------
+
+TEST_P(OwnHoming, AtASwitchItMovesFromItsNewPosition) {
+  start("switch", "-1.2 rad");
+  EXPECT_NE(robot_->arm(), CommandStage::kDone) << "it is not homed";
+  home();
+  expect_home(-1.2, 1e-3);
+}
+
+TEST_P(OwnHoming, AtTheIndexBehindASwitch) {
+  start("switch_index", "-1.1 rad");
+  home();
+  expect_home(-1.1, 2e-4);
+}
+
+TEST_P(OwnHoming, AtAnIndex) {
+  start("index", "-0.7 rad");
+  home();
+  expect_home(-0.7, 2e-4);
+}
+
+TEST_P(OwnHoming, AtAHardStopItComesAwayFromIt) {
+  start("hard_stop", "-1.57 rad");
+  home();
+  ASSERT_EQ(home_->stage(), CommandStage::kDone) << reason() << "\n" << robot_->log;
+  EXPECT_NEAR(at() + 1.57, angle() + 1.6, 2e-3);
+  EXPECT_NEAR(angle(), -1.55, 5e-3) << "by HomingBackOff";
+  EXPECT_LE(fastest_, 0.4);
+}
+
+TEST_P(OwnHoming, ItIsHomedAgainAndFromItsSwitch) {
+  start("switch", "-1.2 rad");
+  ASSERT_EQ(home(), CommandStage::kDone) << reason();
+  run_for(300ms);
+  ASSERT_EQ(home(), CommandStage::kDone) << reason();
+  expect_home(-1.2, 1e-3);
+}
+
+TEST_P(OwnHoming, WhatControllersWantMovesNothingMeanwhile) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  EXPECT_NE(robot_->begin_motion_to({1.0, 1.0}), "") << "nothing is armed";
+  EXPECT_EQ(robot_->call("Joint1", "motorSet", {types::Value::of(5.0)}), "");
+  finish();
+  expect_home(-1.2, 1e-3);
+}
+
+// --- what goes wrong on the way --------------------------------------------------------------
+
+TEST_P(OwnHoming, ASwitchThatNeverComesEndsItWithinItsTravel) {
+  start("switch", "-1.2 rad", {"Joint1.HomingTravel=1.0 rad"});
+  break_it("switch_open");
+  EXPECT_EQ(home(), CommandStage::kFailed);
+  EXPECT_THAT(reason(), HasSubstr("(HomingTravel: 1), and its switch did not close"));
+  EXPECT_GT(farthest_, 0.95) << "it has looked";
+  expect_rest_unhomed(1.0);
+}
+
+TEST_P(OwnHoming, ASwitchThatIsStuckEndsItWithinItsTravel) {
+  start("switch", "-1.2 rad", {"Joint1.HomingTravel=0.5 rad"});
+  break_it("switch_closed");
+  run_for(10ms);
+  EXPECT_EQ(home(), CommandStage::kFailed);
+  EXPECT_THAT(reason(), HasSubstr("and its switch did not open"));
+  expect_rest_unhomed(0.5);
+}
+
+TEST_P(OwnHoming, AnIndexThatNeverComesEndsIt) {
+  for (const char* method : {"index", "switch_index"}) {
+    SCOPED_TRACE(method);
+    start(method, "-1.1 rad", {"Joint1.HomingTravel=1.0 rad"});
+    break_it("index");
+    farthest_ = 0.0;
+    EXPECT_EQ(home(), CommandStage::kFailed);
+    EXPECT_THAT(reason(), HasSubstr("no index came"));
+    expect_rest_unhomed(1.0);
+  }
+}
+
+TEST_P(OwnHoming, AHardStopThatSlipsIsNone) {
+  start("hard_stop", "-1.57 rad", {"Joint1.HomingTravel=1.35 rad"});
+  break_it("stop");
+  EXPECT_EQ(home(), CommandStage::kFailed);
+  EXPECT_THAT(reason(), HasSubstr("nothing stopped it: look for what gives way"));
+  expect_rest_unhomed(1.35);
+}
+
+TEST_P(OwnHoming, ASensorThatDiesEndsItAfterAFewHundredths) {
+  for (const char* method : {"switch", "index", "hard_stop"}) {
+    SCOPED_TRACE(method);
+    start(method, "-1.1 rad");
+    begin();
+    run_for(800ms);
+    break_it("sensor");
+    const double there = angle();
+    EXPECT_EQ(finish(), CommandStage::kFailed);
+    EXPECT_THAT(reason(), HasSubstr("look for what blocks it, at its brake and at its sensor"));
+    const double most = std::string(method) == "hard_stop" ? 0.3 : 0.05;
+    EXPECT_LT(std::abs(angle() - there), most);
+    farthest_ = 0.0;
+    expect_rest_unhomed();
+  }
+}
+
+TEST_P(OwnHoming, ABrakeThatDoesNotOpenIsNoHardStop) {
+  for (const char* method : {"switch", "index", "hard_stop"}) {
+    SCOPED_TRACE(method);
+    start(method, "-1.1 rad");
+    break_it("brake");
+    EXPECT_EQ(home(), CommandStage::kFailed);
+    EXPECT_THAT(reason(), HasSubstr("at its brake and at its sensor"));
+    EXPECT_EQ(angle(), kBegin);
+    expect_rest_unhomed();
+  }
+}
+
+TEST_P(OwnHoming, AnEmergencyStopEndsItAtOnce) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  const double there = angle();
+  ASSERT_EQ(robot_->call("Arming", "disarm"), "");
+  run_for(20ms);
+  EXPECT_EQ(home_->stage(), CommandStage::kFailed);
+  EXPECT_NEAR(angle(), there, 0.005);
+  expect_rest_unhomed();
+}
+
+TEST_P(OwnHoming, ArmingInTheMiddleOfItEndsIt) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  EXPECT_NE(robot_->arm(), CommandStage::kDone);
+  expect_rest_unhomed();
+}
+
+TEST_P(OwnHoming, ACancelledCommandEndsIt) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  home_->cancel();
+  run_for(20ms);
+  EXPECT_EQ(home_->stage(), CommandStage::kCancelled);
+  expect_rest_unhomed();
+}
+
+TEST_P(OwnHoming, ATimeThatIsOverEndsIt) {
+  start("switch", "-1.2 rad", {"Joint1.HomingTime=2 s"});
+  EXPECT_EQ(home(), CommandStage::kFailed);
+  EXPECT_THAT(reason(), HasSubstr("has not found home within 2 s (HomingTime)"));
+  expect_rest_unhomed();
+}
+
+/// What ends a run, in a fault or in order, ends it: also where others died.
+TEST_P(OwnHoming, AComponentThatDiesEndsIt) {
+  for (const char* component : {"Drive1", "Joint1", "Sampler", "Arming"}) {
+    SCOPED_TRACE(component);
+    start("switch", "-1.2 rad");
+    begin();
+    run_for(1500ms);
+    application().run_in_thread_of(*application().find(component),
+                                   [] { throw std::runtime_error("out of order"); });
+    const double there = angle();
+    run_for(300ms);
+    EXPECT_TRUE(home_->ended());
+    EXPECT_NE(home_->stage(), CommandStage::kDone);
+    // Nobody has the simulated axis move without samples: its brake says it.
+    EXPECT_LT(std::abs(angle() - there), 0.03);
+    const double rest = angle();
+    robot_->reset_and_start_everything();
+    run_for(500ms);
+    robot_->reset_and_start_everything();
+    run_for(1s);
+    EXPECT_EQ(angle(), rest) << "nothing goes on";
+    EXPECT_NE(robot_->arm(), CommandStage::kDone);
+  }
+}
+
+TEST_P(OwnHoming, TheOperatorMaySayWhereItIsAfterItFailed) {
+  start("switch", "-1.2 rad", {"Joint1.HomingRequired=false"});
+  begin_and_move();
+  ASSERT_EQ(robot_->call("Arming", "disarm"), "");
+  run_for(100ms);
+  EXPECT_NE(robot_->arm(), CommandStage::kDone);
+  EXPECT_THAT(robot_->log, HasSubstr("it has begun to home, and has not found home"));
+  robot_->set("Drive1", "position_confirmed", true);
+  EXPECT_EQ(robot_->arm(), CommandStage::kDone) << robot_->reasons();
+}
+
+TEST_P(OwnHoming, WhatIsArmedOrHomesIsNotHomed) {
+  start("switch", "-1.2 rad", {"Joint1.HomingRequired=false"});
+  ASSERT_EQ(robot_->arm(), CommandStage::kDone);
+  EXPECT_EQ(home(), CommandStage::kRefused);
+  EXPECT_THAT(reason(), HasSubstr("disarm first"));
+  ASSERT_EQ(robot_->call("Arming", "disarm"), "");
+  run_for(500ms);
+  begin_and_move();
+  const auto again = application().begin("Joint1", "home", {});
+  ASSERT_TRUE(again);
+  run_for(20ms);
+  EXPECT_EQ(again.value().stage(), CommandStage::kRefused);
+  EXPECT_EQ(finish(), CommandStage::kDone) << "the first goes on";
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, OwnHoming,
+                         ::testing::Values("voltage", "torque", "velocity", "position"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// --- here ------------------------------------------------------------------------------------
+
+std::unique_ptr<DeployedRobot> at_here(const std::string& way, const std::string& drive) {
+  auto robot = std::make_unique<DeployedRobot>(
+      load(way, {"drive=" + drive, "Joint1.HomingMethod=here", "Joint1.HomePosition=0.5 rad",
+                 "Joint1.HomingRequired=true"}));
+  return robot;
+}
+
+TEST(HomingHere, IsWhatTheOperatorSaysAndMovesNothing) {
+  auto robot = at_here("torque", "CountingDrive");
+  ASSERT_EQ(robot->start(), "");
+  robot->run_for(100ms);
+  EXPECT_NE(robot->arm(), CommandStage::kDone);
+  const double there = robot->value<double>("Drive1", "angle");
+  EXPECT_EQ(robot->run("Joint1", "home").stage(), CommandStage::kDone);
+  EXPECT_DOUBLE_EQ(robot->at(1), 0.5);
+  EXPECT_EQ(robot->value<double>("Drive1", "angle"), there);
+  EXPECT_THAT(robot->log, Not(HasSubstr("InitialPos"))) << "the encoder will begin anywhere";
+  ASSERT_EQ(robot->arm(), CommandStage::kDone) << robot->reasons();
+  EXPECT_NE(robot->run("Joint1", "home").stage(), CommandStage::kDone) << "it is armed";
+}
+
+TEST(HomingHere, PrintsTheLineThatKeepsItForAnAbsoluteSensor) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, EXAMPLE_LIBRARY};
+  options.document.overrides = {"Joint1.HomingMethod=here", "Joint1.HomePosition=0.5 rad",
+                                "Joint1.InitialPos=0.1 rad"};
+  DeployedRobot robot(deploy::load_deployment(EXAMPLES "/11_drives/torque.yaml", options));
+  ASSERT_EQ(robot.start(), "");
+  robot.run_for(100ms);
+  EXPECT_EQ(robot.run("Joint1", "home").stage(), CommandStage::kDone);
+  EXPECT_THAT(robot.log, HasSubstr("Joint1: {override: true, properties: {InitialPos: 0.5 rad}}"));
+  EXPECT_DOUBLE_EQ(robot.at(1), 0.5);
+  ASSERT_EQ(robot.arm(), CommandStage::kDone) << robot.reasons();
+  ASSERT_EQ(robot.move_to({0.8, 0.0}), CommandStage::kDone);
+  robot.run_for(500ms);
+  EXPECT_NEAR(robot.at(1), 0.8, 0.01);
+}
+
+// --- what the check refuses ------------------------------------------------------------------
+
+std::string refusal(const std::string& way, std::vector<std::string> settings,
+                    const std::string& method = "switch") {
+  std::vector<std::string> all = settings_of(way, method);
+  all.emplace_back("Joint1.HomePosition=-1.2 rad");
+  all.insert(all.end(), settings.begin(), settings.end());
+  const deploy::Deployment loaded = load(way, all);
+  return loaded.ok() ? "" : loaded.diagnostics.to_text();
+}
+
+TEST(HomingCheck, TakesWhatTheTestsHere) {
+  for (const char* way : {"voltage", "torque", "velocity", "position"}) {
+    for (const char* method : {"index", "switch", "switch_index", "hard_stop"}) {
+      EXPECT_EQ(refusal(way, {}, method), "");
+    }
+  }
+}
+
+TEST(HomingCheck, RefusesAMethodThatThereIsNot) {
+  EXPECT_THAT(refusal("torque", {"Joint1.HomingMethod=limit"}),
+              HasSubstr("HomingMethod is 'limit', expected drive, index, switch"));
+}
+
+TEST(HomingCheck, RefusesWhatTheHardwareDoesNotHave) {
+  EXPECT_THAT(refusal("torque", {"drive=Drive"}),
+              HasSubstr("'Drive1' knows where it is: use 'here'"));
+}
+
+TEST(HomingCheck, RefusesNumbersThatCannotBe) {
+  const std::map<std::string, std::string> wrong{
+      {"HomingVelocity=0", "HomingVelocity is 0, expected up to 1, half of MaxVelocity"},
+      {"HomingVelocity=-1.5", "HomingVelocity is -1.5"},
+      {"HomingTravel=0.04", "HomingTravel is 0.04, expected more than 0.04"},
+      {"HomingEffort=30", "HomingEffort is 30, expected more than 0 and up to MaxTorque 20"},
+      {"HomingEffort=1", "the joint weighs up to 2 Nm"},
+      {"HomingStiffness=0", "HomingStiffness is 0"},
+      {"HomingStiffness=100", "lets its weight of 2 Nm move it by 0.02"},
+      {"HomingStiffness=20000", "gains"},
+      {"HomePosition=-3 rad", "HomePosition is -3"},
+      {"HomingVelocity=0.2 m/s", "m/s"},
+  };
+  for (const auto& [setting, text] : wrong) {
+    EXPECT_THAT(refusal("torque", {"Joint1." + setting}), HasSubstr(text)) << setting;
+  }
+}
+
+TEST(HomingCheck, RefusesContradictions) {
+  EXPECT_THAT(refusal("torque", {"Joint1.HomingMethod=drive"}),
+              HasSubstr("is given, and HomingMethod is 'drive'"));
+  EXPECT_THAT(refusal("torque", {"Joint1.HomingMethod=here"}),
+              HasSubstr("is given, and HomingMethod is 'here': nothing moves"));
+  EXPECT_THAT(refusal("velocity", {"Joint1.HomingEffort=0"}, "hard_stop"),
+              HasSubstr("expected what its drive may push with"));
+  EXPECT_THAT(refusal("torque", {"Joint1.HomingBackOff=0.01"}, "hard_stop"),
+              HasSubstr("HomingBackOff is 0.01, expected more than 0.02"));
+}
+
+}  // namespace
+}  // namespace armature::testing
