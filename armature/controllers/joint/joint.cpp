@@ -218,7 +218,7 @@ void Joint::on_sample() {
 /// Without Sampler, whoever calls this samples it.
 double Joint::sensor_read() {
   displacement_read_ = std::numeric_limits<double>::quiet_NaN();
-  if (sampler_ || is_in_time()) succeeds(read_hardware_);
+  if (sampler_ || (is_in_time() && is_homing_watched())) succeeds(read_hardware_);
   return displacement_read_;
 }
 
