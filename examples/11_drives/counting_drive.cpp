@@ -95,9 +95,13 @@ class CountingDrive final : public armature::controllers::JointHardware {
     const double torque = (on_ ? drive(step) : 0.0) - weight_ * std::cos(angle_);
     speed_ = braked_ ? 0.0 : speed_ + (torque - kFriction * speed_) / kInertia * step;
     angle_ += speed_ * step;
-    if (std::abs(angle_) <= kStop) return;
-    if (fails("stop") && std::abs(torque) > kSlips) return;
-    angle_ = std::copysign(kStop, angle_);
+    if (std::abs(angle_) <= stop_) return;
+    if (fails("stop") && std::abs(torque) > kSlips) {
+      speed_ = std::clamp(speed_, -kSlipping, kSlipping);
+      stop_ = std::abs(angle_);
+      return;
+    }
+    angle_ = std::copysign(stop_, angle_);
     speed_ = 0.0;
   }
 
@@ -129,7 +133,8 @@ class CountingDrive final : public armature::controllers::JointHardware {
   static constexpr double kSwitch = -1.2;     // rad; closed below
   static constexpr double kMark = -1.1;       // rad; an index of the encoder, and each kPitch
   static constexpr double kPitch = 0.4;       // rad
-  static constexpr double kSlips = 2.5;       // Nm
+  static constexpr double kSlips = 0.5;       // Nm
+  static constexpr double kSlipping = 0.15;   // rad/s
 
   armature::controllers::SamplingPeriod period_{this};
   Property<double> weight_{this, "Weight",
@@ -151,6 +156,7 @@ class CountingDrive final : public armature::controllers::JointHardware {
   double most_ = kMost;
   double speed_ = 0.0;  // of the axis [rad/s]
   double angle_ = 0.0;
+  double stop_ = kStop;
   double counted_from_ = 0.0;
   double shown_ = 0.0;
   double since_index_ = std::numeric_limits<double>::quiet_NaN();

@@ -33,6 +33,7 @@ base::Result<HomingMotion> HomingMotion::make(const Config& config) {
                   "back_off", config.back_off,
                   "a number above twice the tolerance and below the travel");
   mistakes.expect_positive("lead", config.lead);
+  mistakes.expect_not_negative("patience_s", config.patience_s);
   mistakes.expect_positive("period_s", config.period_s);
   if (const auto checked = mistakes.result(); !checked) return base::Error{checked.error()};
   return HomingMotion(config);
@@ -59,6 +60,12 @@ HomingMotion::Status HomingMotion::step(const Measured& measured) {
 // --- whether it obeys ------------------------------------------------------------------------
 
 HomingMotion::Status HomingMotion::judge(const Measured& measured) {
+  if (to_wait_ > 0) {
+    --to_wait_;
+    still_.reset();
+    begin_window(measured.way);
+    return Status::kGoesOn;
+  }
   moved_ = measured.way - window_begin_;
   const double most = config_.tolerance + std::abs(config_.velocity) * window(config_.period_s);
   if (std::abs(moved_ - told_) > most) return Status::kAstray;
@@ -80,8 +87,7 @@ HomingMotion::Status HomingMotion::end_window(double way) {
   const double onward = told_ > 0.0 ? moved_ : -moved_;
   if (full_speed_ && onward < -kLeastShare * std::abs(told_)) return Status::kAstray;
   if (full_speed_ && onward < kLeastShare * std::abs(told_)) {
-    if (!looks_for_stop()) return Status::kBlocked;
-    if (pushed_) return touch(way);
+    return looks_for_stop() ? touch(way) : Status::kBlocked;
   }
   const bool rests = told_ == 0.0 && std::abs(moved_) < kRestShare * config_.tolerance;
   if (rests && gives_up_) return Status::kNothingFound;
@@ -109,7 +115,8 @@ HomingMotion::Status HomingMotion::touch(double way) {
   velocity_ = 0.0;
   desired_ = way;
   begin_window(way);
-  enter(Stage::kBackingOff, slowly_back());
+  to_wait_ = static_cast<int>(config_.patience_s / config_.period_s);
+  enter(Stage::kBackingOff, -config_.velocity);
   return Status::kGoesOn;
 }
 
@@ -171,9 +178,8 @@ void HomingMotion::go_on(double way) {
   velocity_ = std::clamp(target_, velocity_ - change, velocity_ + change);
   full_speed_ = full_speed_ && velocity_ == target_ && target_ != 0.0;
   told_ += velocity_ * config_.period_s;
-  const double wanted = desired_ + velocity_ * config_.period_s;
-  desired_ = std::clamp(wanted, way - config_.lead, way + config_.lead);
-  pushed_ = desired_ != wanted;
+  desired_ =
+      std::clamp(desired_ + velocity_ * config_.period_s, way - config_.lead, way + config_.lead);
 }
 
 /// Unless it brakes now.

@@ -41,6 +41,9 @@ class HomingMotion {
     double tolerance = 0.0;     ///< more than a few counts of the sensor; > 0
     /// As far as what it is told may be ahead of it: with more it would push harder; > 0.
     double lead = 0.0;
+    /// In which it need not come away from a hard stop yet, since its drive, which has pushed,
+    /// takes that back by itself; >= 0.
+    double patience_s = 0.0;
     double period_s = 0.0;  ///< > 0
   };
 
@@ -130,8 +133,8 @@ class HomingMotion {
   double told_ = 0.0;
   double moved_ = 0.0;
   int steps_ = 0;            ///< of the window
+  int to_wait_ = 0;          ///< steps in which it is not judged
   bool full_speed_ = false;  ///< during all of it
-  bool pushed_ = false;      ///< as hard as it may
 };
 
 }  // namespace armature::control

@@ -182,8 +182,10 @@ void HomingProperties::check(component::Check& check) const {
   if (const std::string unused = objection_to_unused(check); !unused.empty()) {
     return check.error(unused, "leave it out, or name another method");
   }
-  if (!moves()) return;
   const JointHardware* const hardware = hardware_of(owner_, check);
+  is_of_absolute_sensor_ =
+      hardware != nullptr && hardware->sensor() == JointHardware::Sensor::kAbsolute;
+  if (!moves()) return;
   if (hardware == nullptr) {
     return check.error("HomingMethod is " + get().method +
                        ", and what its sensor is of does not say what it can be homed by: extend "

@@ -50,6 +50,9 @@ class HomingProperties final : public component::Properties<HomingSettings>,
   /// The joint moves by itself.
   bool moves() const { return method() != HomingMethod::kDrive && method() != HomingMethod::kHere; }
 
+  /// The check has found that its sensor knows where it is, also after a restart.
+  bool is_of_absolute_sensor() const { return is_of_absolute_sensor_; }
+
   /// What is wrong with them, whatever the hardware is; empty if nothing is.
   std::string objection() const;
   void check(component::Check& check) const override;
@@ -64,6 +67,7 @@ class HomingProperties final : public component::Properties<HomingSettings>,
   component::Component& owner_;
   JointCommand command_;
   const JointProperties& joint_;
+  mutable bool is_of_absolute_sensor_ = false;
 };
 
 }  // namespace armature::controllers

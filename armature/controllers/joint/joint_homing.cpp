@@ -275,11 +275,11 @@ void Joint::tell_homed() {
   home_.complete();
   const char* const unit = units_.position().get() == "m" ? "m" : "rad";
   log_info("homed: it is at {} {}, disarmed", four_digits(measured_.position), unit);
-  if (homing_.method() != HomingMethod::kHere || !position_sensor_.connected()) return;
-  log_info(
-      "to keep that, write into the deployment:  {}: {{override: true, properties: "
-      "{{InitialPos: {} {}}}}}",
-      name(), absolute_->offset(), unit);
+  if (!homing_.is_of_absolute_sensor()) return;
+  Reason line("to keep that, write into the deployment:  ");
+  append_number(line.append(name()).append(": {override: true, properties: {InitialPos: "),
+                absolute_->offset());
+  log_info("{}", line.append(" ").append(unit).append("}}").view());
 }
 
 }  // namespace armature::controllers

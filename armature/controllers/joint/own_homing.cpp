@@ -20,8 +20,10 @@ namespace {
 
 /// Of HomingVelocity: up to there a joint is driven on by an effort.
 constexpr double kFasterThanTold = 2.0;
-/// Of MaxPositionError: as far ahead of it a drive that follows positions is told to be.
+/// Of MaxPositionError: a drive that follows positions is told to be ahead of it at most so far.
 constexpr double kShareOfError = 0.5;
+/// In which a drive that follows by itself takes back what its integral has pushed with.
+constexpr double kUnwinding = 0.3;  // s
 
 HomeSign sign_of(HomingMethod method) {
   switch (method) {
@@ -59,8 +61,7 @@ Outcome OwnHoming::set_up(base::Duration period) {
 /// How far a joint is behind what pushes it with all that it may.
 double OwnHoming::lead() const {
   if (is_effort(way_)) return settings_->effort / settings_->stiffness;
-  return way_ == JointCommand::kPosition ? kShareOfError * joint_->max_error
-                                         : joint_->arming_motion;
+  return std::min(kShareOfError * joint_->max_error, joint_->arming_motion);
 }
 
 HomingMotion::Config OwnHoming::motion_config() const {
@@ -72,6 +73,7 @@ HomingMotion::Config OwnHoming::motion_config() const {
                                                                     : 0.75 * settings_->travel,
           .tolerance = joint_->arming_motion,
           .lead = lead(),
+          .patience_s = is_effort(way_) ? 0.0 : kUnwinding,
           .period_s = period_s_};
 }
 
