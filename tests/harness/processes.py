@@ -2,6 +2,7 @@
 """Programs that tests type to, and stop and kill. Nothing here depends on how fast the machine is: what
 is waited for has to come true in a long while."""
 
+import ctypes
 import json
 import os
 import signal
@@ -28,13 +29,23 @@ def wait_for(condition, what, limit=LONG):
     raise Broken(f"it did not come true: {what}")
 
 
+LIBC = ctypes.CDLL(None)
+PR_SET_PDEATHSIG = 1
+
+
 class Process:
-    """A program that is typed to, and all that it has said; it does `first` before it begins."""
+    """A program that is typed to, and all that it has said; it does `first` before it begins. It dies with the test:
+    emulators that a killed test left behind would load the machine for ever."""
 
     def __init__(self, command, cwd=None, first=None):
+        def begin():
+            LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+            if first:
+                first()
+
         self.lines, self.asked = [], 0
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT, text=True, cwd=cwd, preexec_fn=first)
+                                        stderr=subprocess.STDOUT, text=True, cwd=cwd, preexec_fn=begin)
         self.reader = threading.Thread(target=self.read, daemon=True)
         self.reader.start()
 
