@@ -61,6 +61,7 @@ Outcome OwnHoming::set_up(base::Duration period) {
 /// How far a joint is behind what pushes it with all that it may.
 double OwnHoming::lead() const {
   if (is_effort(way_)) return settings_->effort / settings_->stiffness;
+  if (way_ == JointCommand::kVelocity) return joint_->arming_motion;
   return std::min(kShareOfError * joint_->max_error, joint_->arming_motion);
 }
 
