@@ -43,6 +43,7 @@ void HomingMotion::begin(bool switch_closed) {
   const Config config = config_;
   *this = HomingMotion(config);
   still_ = StillWatch({.most = config_.tolerance});
+  was_closed_ = switch_closed;
   const bool by_switch =
       config_.sign == HomeSign::kSwitch || config_.sign == HomeSign::kSwitchThenIndex;
   if (by_switch && switch_closed) return enter(Stage::kToEdge, slowly_back());
@@ -151,11 +152,11 @@ void HomingMotion::look_for_sign(const Measured& measured) {
   }
 }
 
-/// On the way back only: a short cam may have been passed before it turned round.
+/// Not before it has turned round: a short cam may have been passed.
 void HomingMotion::look_for_edge(const Measured& measured) {
-  const bool back = outwards(velocity_) < 0.0;
-  const bool opened = back && was_closed_ && !measured.switch_closed;
-  was_closed_ = back && measured.switch_closed;
+  const bool goes_on = outwards(velocity_) > 0.0;
+  const bool opened = !goes_on && was_closed_ && !measured.switch_closed;
+  was_closed_ = !goes_on && measured.switch_closed;
   if (!opened) return;
   found_at_ = measured.way;
   if (config_.sign == HomeSign::kSwitchThenIndex) return enter(Stage::kToIndex, slowly_back());

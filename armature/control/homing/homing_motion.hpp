@@ -122,7 +122,7 @@ class HomingMotion {
   StillWatch still_;
   Stage stage_ = Stage::kSearching;
   bool gives_up_ = false;     ///< comes to rest at the end of its travel
-  bool was_closed_ = false;   ///< the switch, on the way back
+  bool was_closed_ = false;   ///< the switch, since it turned round
   bool found_again_ = false;  ///< the stop
   double target_ = 0.0;       ///< velocity
   double velocity_ = 0.0;

@@ -81,6 +81,15 @@ TEST(HomingMotion, FindsTheSameWhenItBeginsAtItsSwitch) {
   EXPECT_NEAR(joint.motion.found_at(), 0.3, 3e-4);
 }
 
+TEST(HomingMotion, FindsTheEdgeWhereItBeginsAlsoIfItOpensBeforeItMoves) {
+  HomingMotion motion = HomingMotion::make(config_of(HomeSign::kSwitch)).value();
+  motion.begin(true);
+  Status status = Status::kGoesOn;
+  for (int k = 0; k < 200 && status == Status::kGoesOn; ++k) status = motion.step({.way = 1e-4});
+  EXPECT_EQ(status, Status::kHome);
+  EXPECT_EQ(motion.found_at(), 1e-4);
+}
+
 TEST(HomingMotion, FindsTheEdgeOfACamThatIsShorterThanItsWayToBrake) {
   Joint joint = joint_that_looks_for(HomeSign::kSwitch);
   joint.closed = [](double way) { return way < -0.5 && way > -0.503; };
