@@ -9,7 +9,7 @@ usage: check_layers.py SOURCE_DIR
 - internal/ headers are included only by their own library;
 - one robot does not include another, and no library includes a robot;
 - the interface compiler, idl/, is a library like those of armature/, which do not include it;
-- so is each folder of drives/, of which only robots and component libraries know;
+- so is each folder of drives/, of which only robots and component libraries know, and python/, which nobody includes;
 - public headers include the standard library, Eigen and Armature, nothing else;
 - what layers.cmake allows is used, and ARCHITECTURE.md says the same;
 - headers of the operating system are included only by platform/, by guard/, which stands in front
@@ -19,7 +19,7 @@ import re
 import sys
 from pathlib import Path
 
-LIBRARY_FOLDERS = ("armature/", "idl/", "drives/")
+LIBRARY_FOLDERS = ("armature/", "idl/", "drives/", "bridges/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 RAW_TEXT = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
 OPERATING_SYSTEM = re.compile(
@@ -56,7 +56,7 @@ class Tree:
         self.layers = read_layers(source_dir)
         self.map = (source_dir / "ARCHITECTURE.md").read_text()
         self.includes = {}
-        for top in ("armature", "drives", "idl", "robots", "examples", "benchmarks", "tests"):
+        for top in ("armature", "bridges", "drives", "idl", "python", "robots", "examples", "benchmarks", "tests"):
             for path in sorted((source_dir / top).rglob("*.?pp")):
                 if "idl/testdata" in path.as_posix():
                     continue  # what the interface compiler is to write
@@ -135,7 +135,7 @@ class Tree:
         return allowed
 
     def check_robot(self, path, name):
-        if path.startswith(("armature/", "drives/")):
+        if path.startswith(("armature/", "bridges/", "drives/")):
             return "a library does not know the robots"
         if path.startswith("robots/") and path.split("/")[1] != name.split("/")[1]:
             return "one robot does not use another; what they share goes to armature/"
@@ -166,9 +166,9 @@ def library_of(path):
     if "/testdata/" in path:
         return None
     top, _, rest = path.partition("/")
-    if top in ("armature", "drives"):
+    if top in ("armature", "bridges", "drives"):
         return rest.split("/")[0]
-    if top == "idl":
+    if top in ("idl", "python"):
         return top
     return "robots" if top == "robots" and not path.endswith("_test.cpp") else None
 

@@ -40,5 +40,7 @@ set(ARMATURE_LAYERS
     "cia402: base can canopen control platform sim"
     "cia402_components: base can canopen cia402 component controllers guardian platform rt types"
     "robots: base platform rt types controllers component can control vision guardian sim"
+    "ros2: base component control controllers platform rt types vision"
     "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim"
+    "python: base platform types rt control component exec record runner document inspect deploy ride remote tls websocket cli"
     "testing: base platform types rt guard control component can guardian ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim")

@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages, by `scripts/package`: armature (programs, libraries, component libraries, the studio), armature-dev (what
-# components are built with), armature-robots (Janus, WAM, rover). Each install rule names its package as COMPONENT; what names
-# none is of the default of its folder.
+# components are built with), armature-robots (Janus, WAM, rover), armature-ros2 where Cyclone DDS is installed,
+# python3-armature where pybind11 is. Each install rule names its package as COMPONENT; what names none is of the default of its folder.
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(packages armature dev robots)
+if(TARGET ros2)
+  list(APPEND packages ros2)
+endif()
+if(TARGET armature_python)
+  list(APPEND packages python)
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME armature)
@@ -52,6 +58,26 @@ set(CPACK_DEBIAN_ROBOTS_DESCRIPTION
     "This package has robots to begin with: the two-joint head Janus, the Barrett
 WAM and a rover that follows a ball, each with drivers, deployments, scripts
 and a simulation, so that it runs on any machine.")
+
+set(CPACK_DEBIAN_ROS2_PACKAGE_NAME armature-ros2)
+set(CPACK_DEBIAN_ROS2_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_ROS2_DEPENDS armature)
+set(CPACK_DEBIAN_ROS2_DESCRIPTION
+    "With this package an application is a node of ROS 2: its joints, transforms,
+images, diagnostics and ports are topics, and topics command its motions. It
+needs no ROS: its component library speaks DDS by Eclipse Cyclone DDS.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-armature)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+# The module is for one version of Python.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11~), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "armature-robots, python3-cloudpickle")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy, python3-distributed, jupyter-notebook")
+set(CPACK_COMPONENT_PYTHON_DEPENDS armature)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${packaging}/python/postinst ${packaging}/python/prerm)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+    "With this package Python checks deployments, runs them in simulated time,
+reads recordings as numpy arrays, connects to running applications, and has
+components of its own in simulations.")
 
 # What Debian wants of every package: its licence, its changes, and why it differs from the rules.
 find_program(ARMATURE_GZIP gzip REQUIRED)

@@ -7,8 +7,10 @@
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/libraries.hpp"
 #include "armature/cli/output.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/inspect/model_catalogue.hpp"
 #include "armature/remote/interface_file.hpp"
+#include "armature/types/dds_idl.hpp"
 
 namespace armature::cli {
 namespace {
@@ -18,6 +20,7 @@ struct ModelsArguments {
   std::vector<std::string> library_folders;
   std::string name;
   bool json = false;
+  bool dds = false;
 };
 
 bool is_interface_file(const std::string& name) {
@@ -42,6 +45,31 @@ int describe_interfaces(const ModelsArguments& arguments, const Console& console
   return print(text, console);
 }
 
+/// The types of all ports of models, one or all, as topics of DDS have them.
+int print_dds(const component::Registry& registry, const std::string& name,
+              const Console& console) {
+  std::vector<std::unique_ptr<component::Component>> made;
+  std::vector<const types::Type*> types;
+  for (const std::string& each : name.empty() ? registry.names() : std::vector{name}) {
+    const component::Registry::Model* const model = registry.find(each);
+    if (model == nullptr) {
+      console.say(rt::LogLevel::kError,
+                  "unknown model '" + each + "' (armature models lists them)");
+      return kFailed;
+    }
+    made.push_back(model->make(each));
+    const component::Interface& interface = component::interface_of(*made.back());
+    const auto add = [&](const auto& ports) {
+      for (const auto* port : ports) {
+        if (types::dds_objection(port->type()).empty()) types.push_back(&port->type());
+      }
+    };
+    add(interface.inputs);
+    add(interface.outputs);
+  }
+  return print(types::dds_idl(types), console);
+}
+
 int models(const ModelsArguments& arguments, const Console& console) {
   if (is_interface_file(arguments.name)) {
     if (!arguments.json) return describe_interfaces(arguments, console);
@@ -51,6 +79,7 @@ int models(const ModelsArguments& arguments, const Console& console) {
   const auto [registry, diagnostics] = models_of(arguments.libraries, arguments.library_folders);
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
+  if (arguments.dds) return print_dds(registry, arguments.name, console);
   if (arguments.json) {
     std::vector<std::string> wanted;
     if (!arguments.name.empty()) wanted.push_back(arguments.name);
@@ -70,7 +99,11 @@ void add_models(const CommandLine& to) {
   command->add_option("-l,--library", arguments->libraries, "component library to search")
       ->allow_extra_args(false);
   add_folders(*command, arguments->library_folders);
-  command->add_flag("--json", arguments->json, "prints JSON, for machines");
+  auto* const json = command->add_flag("--json", arguments->json, "prints JSON, for machines");
+  command
+      ->add_flag("--dds", arguments->dds,
+                 "prints the types of its ports, or of those of all models, as IDL for DDS")
+      ->excludes(json);
 }
 
 }  // namespace armature::cli

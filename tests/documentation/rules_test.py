@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 LEAST_RULES = {"docs/bundle.md": 5, "docs/can.md": 15, "docs/canopen.md": 10, "docs/editing.md": 5, "docs/generate.md": 5, "docs/papers.md": 400, "docs/promises.md": 40, "docs/ride.md": 20,
-               "docs/rules.md": 30, "docs/robot.md": 15, "docs/security.md": 15}
+               "docs/rules.md": 30, "docs/robot.md": 15, "docs/ros2.md": 10, "docs/security.md": 15}
 NAME = r"\w+[./][A-Z]\w+|test_\w+"
 LINK = re.compile(r'\[(\w+_(?:test|conformance))\]\(([^)\s]+?\.(?:cpp|hpp|py))(?: "([^"]*)")?\)')
 QUOTED = re.compile(f"`({NAME})`")

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bridges/ros2/joint_trajectory.hpp"
+
+#include <utility>
+
+#include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/control/per_joint.hpp"
+#include "bridges/ros2/internal/dds.hpp"
+#include "bridges/ros2/internal/messages.hpp"
+#include "bridges/ros2/internal/names.hpp"
+
+namespace armature::ros2 {
+
+using component::CommandStage;
+using internal::Trajectory;
+
+namespace {
+
+Trajectory trajectory_of(const trajectory_msgs_msg_dds__JointTrajectory_& message) {
+  Trajectory trajectory;
+  trajectory.stamp_ns = internal::ns_of(message.header.stamp);
+  for (const char* name : internal::elements_of(message.joint_names)) {
+    trajectory.joints.emplace_back(name);
+  }
+  for (const auto& point : internal::elements_of(message.points)) {
+    trajectory.points.push_back(
+        {internal::elements_of(point.positions), internal::elements_of(point.velocities),
+         internal::elements_of(point.accelerations), internal::elements_of(point.effort),
+         internal::ns_of(point.time_from_start)});
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+void JointTrajectory::on_check(component::Check& check) const {
+  Subscriber::on_check(check);
+  const auto* const plays = check.target_of(play_path_);
+  if (plays == nullptr) return;  // which is reported
+  for (const component::OutputPortBase* const writer : check.writers_of(desired_)) {
+    if (&writer->owner() == &plays->owner()) continue;
+    check.error("nAxesDesiredPosition comes from '" + writer->owner().name() +
+                    "', and the trajectories are played by '" + plays->owner().name() + "'",
+                "connect " + plays->owner().name() + ".nAxesDesiredPosition");
+  }
+}
+
+std::vector<JointTrajectory::Objection> JointTrajectory::objections(
+    const Components& /*components*/) const {
+  return internal::objections_to_names(names_, static_cast<std::size_t>(joints_.get()));
+}
+
+std::string JointTrajectory::open(const component::Surroundings& /*surroundings*/) {
+  reader_ = reader(topic_, trajectory_msgs_msg_dds__JointTrajectory__desc, kCommands);
+  limits_ = {names_, {}, {}, max_duration_};
+  return ask_for_limits();
+}
+
+/// The generator's.
+std::string JointTrajectory::ask_for_limits() {
+  const auto* const plays = face(play_path_).target();
+  if (plays == nullptr) return "no peer serves playPath: add an nAxesGeneratorTaught to its peers";
+  for (const auto* property : component::interface_of(plays->owner()).properties) {
+    std::vector<double>* const to = property->name() == "lower"   ? &limits_.lower
+                                    : property->name() == "upper" ? &limits_.upper
+                                                                  : nullptr;
+    if (to == nullptr || !types::same_type(property->type(), types::type_of<Vector>())) continue;
+    auto each = control::per_joint(property->name(), *static_cast<const Vector*>(property->data()),
+                                   names_.get().size());
+    if (!each) return each.error();
+    *to = std::move(each).value();
+  }
+  if (!limits_.lower.empty() && !limits_.upper.empty()) return {};
+  return "'" + plays->owner().name() + "' has no limits lower and upper";
+}
+
+void JointTrajectory::begin() {
+  Subscriber::begin();
+  motion_ = component::CommandHandle(component::CallStatus::kNotConnected);
+  present_.reset();
+  next_ = braking_ = rests_ = false;
+  // Who spoke before the start is not heard.
+  deaf_ = true;
+  heard_at_ = time();
+}
+
+void JointTrajectory::work() {
+  receive(*reader_, [this](const void* sample) {
+    return obey(
+        trajectory_of(*static_cast<const trajectory_msgs_msg_dds__JointTrajectory_*>(sample)));
+  });
+  look_at_silence();
+  look_whether_it_rests();
+  look_at_motion();
+  moves_.write(moves());
+  progress_.write(moves() ? motion_.progress() : 1.0);
+}
+
+std::string JointTrajectory::obey(Trajectory trajectory) {
+  if (deaf_) {
+    heard_at_ = time();
+    return "no motion goes on by itself: it is heard again when nobody has sent for max_silence";
+  }
+  if (std::string why = objection_to(trajectory); !why.empty()) return why;
+  heard_at_ = time();
+  if (present_ == trajectory) return {};
+  present_ = std::move(trajectory);
+  next_ = !present_->points.empty();
+  brake();
+  return {};
+}
+
+std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
+  if (present_ && trajectory.stamp_ns != 0 && trajectory.stamp_ns < present_->stamp_ns) {
+    return "its stamp is before that of the one before";
+  }
+  return internal::objection_to(trajectory, limits_);
+}
+
+void JointTrajectory::look_at_silence() {
+  if (time() - heard_at_ <= base::from_seconds(max_silence_)) return;
+  deaf_ = false;
+  present_.reset();
+  next_ = false;
+  if (!moves() || braking_) return;
+  log_warning("nobody has sent a trajectory for {} s: the motion brakes", max_silence_.get());
+  brake();
+}
+
+/// On the path.
+void JointTrajectory::brake() {
+  if (!moves()) return;
+  braking_ = true;
+  motion_.cancel();
+}
+
+void JointTrajectory::look_at_motion() {
+  if (moves()) return;
+  if (motion_.sent()) {
+    const CommandStage stage = motion_.stage();
+    if (stage == CommandStage::kRefused) {
+      refuse(motion_.reason());
+    } else if (stage != CommandStage::kDone && !braking_) {
+      log_warning("the motion ended: {}", motion_.reason());
+    }
+    // Its commander sends it still, and did not see why it ended.
+    if (stage != CommandStage::kDone && !braking_) deaf_ = true;
+    motion_ = component::CommandHandle(component::CallStatus::kNotConnected);
+    braking_ = false;
+  }
+  if (deaf_) {
+    present_.reset();
+    next_ = false;
+  }
+  if (!next_ || !rests_) return;
+  next_ = false;
+  play_next();
+}
+
+void JointTrajectory::look_whether_it_rests() {
+  const auto desired = desired_.read();
+  if (!desired.is_new()) return;
+  rests_ = desired.value == last_desired_;
+  last_desired_ = desired.value;
+}
+
+void JointTrajectory::play_next() {
+  const auto path =
+      internal::smooth_path_of(internal::way_of(*present_, limits_, last_desired_), limits_);
+  if (!path || path.value().largest_deviation > max_deviation_) {
+    deaf_ = true;
+    return refuse(path ? "its corners are sharper than max_deviation allows: give velocities"
+                       : path.error());
+  }
+  motion_ = play_path_.send(path.value().points, 1.0);
+}
+
+}  // namespace armature::ros2

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recordings of runs as numpy arrays."""
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from armature import _native
+from armature._values import suggestion
+
+Array = npt.NDArray[Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """What was recorded of a port or property; n samples, in the order of writing."""
+
+    name: str  # `PID1.Out`
+    type: str  # `double`, `vector<double>`, ...
+    unit: str
+    doc: str
+    times: npt.NDArray[np.float64]  # [n], cycle times in s
+    # [n]; [n, k] of lists; structured of structs; of texts and enumerations `str`; of lists whose sizes
+    # differ, and of structs with such lists, objects.
+    values: Array
+    # How many writes between the first and the last sample are missing, by their numbers: what did not
+    # fit into the Reporter's buffer, and what its `on_change` leaves out.
+    dropped: int
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __repr__(self) -> str:
+        unit = f" [{self.unit}]" if self.unit else ""
+        lost = f", {self.dropped} dropped" if self.dropped else ""
+        return f"<Samples {self.name}{unit}: {len(self)} of {self.type}{lost}>"
+
+
+class Recording(Mapping[str, Samples]):
+    """A recording: its channels by their names, `recording["PID1.Out"]`, in the order of the file."""
+
+    def __init__(self, file: str) -> None:
+        channels, complete = _native.load_recording(file)
+        self._file = file
+        self._complete = complete
+        self._samples = {channel["name"]: _samples_of(channel) for channel in channels}
+
+    @property
+    def file(self) -> str:
+        return self._file
+
+    @property
+    def complete(self) -> bool:
+        """False: the file was cut off, and this is what is whole of it."""
+        return self._complete
+
+    def __getitem__(self, name: str) -> Samples:
+        try:
+            return self._samples[name]
+        except KeyError:
+            near = suggestion(name, list(self._samples))
+            raise KeyError(f"'{name}' was not recorded{near}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._samples)
+
+    def __len__(self) -> int:
+        return len(self._samples)
+
+    def __repr__(self) -> str:
+        cut_off = "" if self._complete else ", cut off"
+        return f"<Recording {self._file}: {len(self)} channels{cut_off}>"
+
+
+def read_recording(path: str | os.PathLike[str]) -> Recording:
+    """Reads the recording of a run: its folder, or an MCAP file. All of it has to fit into memory.
+
+    Raises Error if there is none, if there are several to choose from, or if it is damaged.
+    """
+    place = Path(path)
+    return Recording(str(_recording_in(place) if place.is_dir() else place))
+
+
+def _recording_in(folder: Path) -> Path:
+    files = sorted(folder.glob("*.mcap"))
+    # Black boxes are recordings of faults, for who wants them by their names.
+    recordings = [file for file in files if not file.name.startswith("blackbox-")] or files
+    if not recordings:
+        raise _native.Error(f"'{folder}' has no recording, a file `*.mcap`: give `application` a folder "
+                            "by `record`, or the deployment a Reporter")
+    if len(recordings) > 1:
+        names = ", ".join(file.name for file in recordings)
+        raise _native.Error(f"'{folder}' has several recordings: name one of {names}")
+    return recordings[0]
+
+
+def _samples_of(channel: Mapping[str, Any]) -> Samples:
+    values = channel["values"]
+    if channel["json"]:
+        values = _from_json(values)
+    elif isinstance(values, list):
+        values = _objects(values)
+    return Samples(channel["name"], channel["type"], channel["unit"], channel["doc"], channel["times"], values,
+                   _missing(channel["numbers"]))
+
+
+def _missing(numbers: npt.NDArray[np.uint32]) -> int:
+    steps = np.diff(numbers.astype(np.int64))
+    steps = steps[steps > 0]
+    if not len(steps):
+        return 0
+    # A Reporter that records every n-th sample only has steps of n.
+    return int(np.sum(steps // steps.min() - 1))
+
+
+def _from_json(texts: list[str]) -> Array:
+    # A struct is an object itself, anything else the member `value` of one.
+    parsed = [json.loads(text) for text in texts]
+    values = [one["value"] if set(one) == {"value"} else one for one in parsed]
+    if not values:
+        return np.array([])
+    try:
+        return np.array([_row_of(value) for value in values], dtype=_dtype_of(values[0]))
+    except (TypeError, ValueError):
+        return _objects(values)
+
+
+def _dtype_of(value: Any) -> Any:
+    """How numpy has such a value; TypeError if it does not."""
+    if isinstance(value, bool):
+        return np.bool_
+    if isinstance(value, (int, float)) or value is None:
+        return np.float64  # JSON does not tell 1 from 1.0, and nan is null
+    if isinstance(value, str):
+        return object
+    if isinstance(value, list):
+        return (_dtype_of(value[0]) if value else np.float64, (len(value),))
+    return [(name, _dtype_of(part)) for name, part in value.items()]
+
+
+def _row_of(value: Any) -> Any:
+    if value is None:
+        return np.nan
+    if isinstance(value, list):
+        return [_row_of(part) for part in value]
+    if isinstance(value, dict):
+        return tuple(_row_of(part) for part in value.values())
+    return value
+
+
+def _objects(values: list[Any]) -> Array:
+    made = np.empty(len(values), dtype=object)
+    made[:] = values
+    return made

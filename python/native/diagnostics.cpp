@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/base/diagnostic.hpp"
+#include "python/native/bindings.hpp"
+
+namespace armature::python {
+namespace {
+
+const char* severity_of(const base::Diagnostic& diagnostic) {
+  switch (diagnostic.severity) {
+    case base::Severity::kError:
+      return "error";
+    case base::Severity::kWarning:
+      return "warning";
+    case base::Severity::kNote:
+      break;
+  }
+  return "note";
+}
+
+}  // namespace
+
+void bind_diagnostics(pybind11::module_& module) {
+  using base::Diagnostic;
+  pybind11::class_<Diagnostic>(
+      module, "Diagnostic", "One finding: where, what is wrong, what was expected, how to mend it.")
+      .def_property_readonly("severity", &severity_of, "`error`, `warning` or `note`")
+      .def_readonly("message", &Diagnostic::message)
+      .def_readonly("hint", &Diagnostic::hint, "how to mend it; may be empty")
+      .def_readonly("name", &Diagnostic::name, "of a warning that may be accepted; else empty")
+      .def_property_readonly("file", [](const Diagnostic& self) { return self.where.file; })
+      .def_property_readonly(
+          "line", [](const Diagnostic& self) { return self.where.line; },
+          "counted from 1; 0: unknown")
+      .def_property_readonly(
+          "column", [](const Diagnostic& self) { return self.where.column; },
+          "counted from 1; 0: unknown")
+      .def("__str__", [](const Diagnostic& self) { return base::to_text(self); })
+      .def("__repr__",
+           [](const Diagnostic& self) { return "<Diagnostic " + base::to_text(self) + ">"; });
+}
+
+}  // namespace armature::python

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs for tests of sweeps, which need no robot. Workers import them by name."""
+from __future__ import annotations
+
+import math
+import os
+import random
+import signal
+import time
+from pathlib import Path
+
+from armature.sweeps.run import Refusal
+
+
+def rosenbrock(point, folder):
+    """Smooth, with its least value 0 at (1, 1); its last digits depend on how it is computed."""
+    x, y = point["x"], point["y"]
+    if folder is not None:
+        Path(folder, "left.txt").write_text(f"{x} {y}\n")
+    return {"cost": (1 - x) ** 2 + 100 * (y - x * x) ** 2, "angle": math.atan2(y, x)}
+
+
+def draws(point, folder):
+    """What a run draws depends neither on the runs before it nor on what they have left."""
+    return {"drawn": random.random() + 0 * point["x"]}
+
+
+def picky(point, folder):
+    """Not every point can be run, and not every run ends well."""
+    if point["x"] < 0:
+        raise Refusal(f"x must be 0 or more, found {point['x']}")
+    if point["x"] > 10:
+        raise RuntimeError("Joint1: too far from its reference")
+    if point["x"] == 5:
+        return {"cost": "much"}
+    return {"cost": point["x"]}
+
+
+def deadly_once(point, folder):
+    """The first worker that has this point dies in the middle of it, as by kill -9."""
+    mark = Path(point["marks"], f"begun-{point['x']}")
+    if point["x"] == 3 and not mark.exists():
+        mark.write_text(str(os.getpid()))
+        os.kill(os.getpid(), signal.SIGKILL)
+    return {"cost": math.sqrt(point["x"])}
+
+
+def deadly(point, folder):
+    if point["x"] == 1:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return {"cost": point["x"]}
+
+
+def slow(point, folder):
+    """Says that it has begun, and takes its time: others can end its worker meanwhile."""
+    Path(point["marks"], f"{point['x']}-{os.getpid()}").touch()
+    time.sleep(point.get("seconds", 0.1))
+    return {"cost": math.exp(-point["x"])}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program with Fast DDS that commands a robot, ten times a second, until it is killed:
+//   ros2_commander DOMAIN joint_trajectory JOINTS TARGET TIME_S    all joints to one position
+//   ros2_commander DOMAIN cmd_vel FORWARD_M_S TURN_RAD_S
+//   ros2_commander DOMAIN listen TOPIC                             reads joint states, until
+//   SIGTERM; prints how many
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "fast_peer.hpp"
+
+namespace {
+
+using namespace armature::ros2;
+
+trajectory_msgs::msg::dds_::JointTrajectory_ trajectory_to(int joints, double target,
+                                                           double time_s) {
+  trajectory_msgs::msg::dds_::JointTrajectory_ message;
+  for (int i = 1; i <= joints; ++i) message.joint_names().push_back("joint" + std::to_string(i));
+  trajectory_msgs::msg::dds_::JointTrajectoryPoint_ point;
+  point.positions(std::vector<double>(static_cast<std::size_t>(joints), target));
+  point.time_from_start().sec(static_cast<std::int32_t>(time_s));
+  message.points({point});
+  return message;
+}
+
+geometry_msgs::msg::dds_::Twist_ twist_of(double forward, double turn) {
+  geometry_msgs::msg::dds_::Twist_ message;
+  message.linear().x(forward);
+  message.angular().z(turn);
+  return message;
+}
+
+template <typename Message>
+[[noreturn]] void send_for_ever(fast::DataWriter& writer, Message message) {
+  while (true) {
+    writer.write(&message);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+volatile std::sig_atomic_t ended = 0;
+
+int listen(FastPeer& peer, const std::string& topic) {
+  std::signal(SIGTERM, [](int) { ended = 1; });
+  auto* const reader = peer.read_from<sensor_msgs::msg::dds_::JointState_PubSubType>(topic);
+  std::size_t count = 0;
+  sensor_msgs::msg::dds_::JointState_ message;
+  while (ended == 0) {
+    while (take(*reader, message)) ++count;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  std::cout << count << std::endl;
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 3) return 2;
+  FastPeer peer(std::stoi(words[0]));
+  if (words[1] == "listen") return listen(peer, words[2]);
+  if (words[1] == "cmd_vel") {
+    send_for_ever(*peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel"),
+                  twist_of(std::stod(words[2]), std::stod(words.at(3))));
+  }
+  send_for_ever(
+      *peer.write_to<trajectory_msgs::msg::dds_::JointTrajectory_PubSubType>("rt/joint_trajectory"),
+      trajectory_to(std::stoi(words[2]), std::stod(words.at(3)), std::stod(words.at(4))));
+}

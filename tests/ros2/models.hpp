@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What the tests of the library ros2 have beside it.
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/controllers/forward_kinematics/pose.hpp"
+#include "walk.hpp"
+
+namespace armature::ros2 {
+
+/// Ports that a test writes and reads.
+class Numbers final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Outcome on_configure() override {
+    Walk walk;
+    walk.between.resize(2);
+    walk.numbers.resize(3);
+    walk_.set_sample(walk);
+    position_.set_sample({0.0, 0.0});
+    velocity_.set_sample({0.0, 0.0});
+    image_.set_sample(std::vector<std::uint8_t>(2 * 2 * 3));
+    return component::accepted();
+  }
+  void on_update() override {
+    if (const auto walk = walk_in_.read()) walks_.write(walks_.last() + (walk.is_new() ? 1 : 0));
+  }
+
+  component::OutputPort<std::vector<double>> position_{this, "Position", "of two joints", "rad"};
+  component::OutputPort<std::vector<double>> velocity_{this, "Velocity", "of two joints", "rad/s"};
+  component::OutputPort<controllers::Pose> pose_{this, "Pose", "of a tool"};
+  component::OutputPort<double> x_{this, "X", "of a chassis", "m"};
+  component::OutputPort<double> heading_{this, "Heading", "of a chassis", "rad"};
+  component::OutputPort<std::vector<std::uint8_t>> image_{this, "Image", "two by two pixels"};
+  component::OutputPort<Walk> walk_{this, "Walk", "of all kinds of types"};
+  component::OutputPort<int> walks_{this, "Walks", "that came"};
+  component::InputPort<Walk> walk_in_{this,
+                                      "WalkIn",
+                                      "of all kinds of types",
+                                      "",
+                                      component::may_stay_open,
+                                      component::max_age(std::chrono::seconds(10))};
+  component::InputPort<double> voltage_{this, "Voltage", "an effort", "V",
+                                        component::may_stay_open};
+  component::InputPort<std::vector<double>> wanted_{this, "Wanted", "of two joints", "rad",
+                                                    component::may_stay_open};
+};
+
+/// Writes {1, 0}, {2, 0}, ... in each of its cycles, once it is told to.
+class Ticker final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Outcome on_configure() override {
+    position_.set_sample(numbers_);
+    return component::accepted();
+  }
+  void on_update() override {
+    if (numbers_[0] >= count_) return;
+    numbers_[0] += 1.0;
+    position_.write(numbers_);
+  }
+
+  component::Property<double> count_{
+      this, "count", 0.0, "samples that it writes", "", component::changeable_while_running};
+  component::OutputPort<std::vector<double>> position_{this, "Position", "counts", "rad"};
+  std::vector<double> numbers_{0.0, 0.0};
+};
+
+/// Looks at what comes: its number, and the wall clock when it was sent [s].
+class Listener final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Outcome on_configure() override {
+    late_s_.reserve(100000);
+    return component::accepted();
+  }
+  void on_data(const std::vector<double>& data) {
+    const double now =
+        std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+    if (data[0] != last_ + 1.0) gaps_.assign(gaps_ + 1);
+    last_ = data[0];
+    late_s_.push_back(now - data[1]);
+    came_.assign(came_ + 1);
+  }
+  std::vector<double> latencies() { return late_s_; }
+
+  component::Attribute<int> came_{this, "Came", 0, "samples"};
+  component::Attribute<int> gaps_{this, "Gaps", 0, "in their numbers"};
+  component::InputPort<std::vector<double>> in_{this, "In", "number and time", "",
+                                                component::on_data<&Listener::on_data>};
+  component::Operation<std::vector<double>()> latencies_{
+      this, "latencies", component::serve<&Listener::latencies>, "[s]", component::in_own_thread};
+  std::vector<double> late_s_{};
+  double last_ = 0.0;
+};
+
+}  // namespace armature::ros2
