@@ -68,7 +68,7 @@ Outcome Joint::on_start() {
     return component::refused("the event Arm comes from '" + arming_->name() +
                               "' in another process: let an Arming in its own process arm it");
   }
-  if (settings_->homing_required && homes_by_hardware() && !is_homed_.bound()) {
+  if (settings_->homing_required && homes_by_hardware() && !hardware_.tells_of_home()) {
     return component::refused("HomingRequired is set, and '" + peer_name_.get() +
                               "' does not home by itself: set HomingMethod, or leave it out");
   }
@@ -80,7 +80,7 @@ Outcome Joint::on_start() {
   if (absolute_) absolute_->reset();
   switch_off();
   kept_.note_start();
-  if (kept_.is_doubtful() && !succeeds(doubt_position_)) {
+  if (kept_.is_doubtful() && !hardware_.doubt_position()) {
     return component::refused(
         "autosave needs hardware that asks the operator for position_confirmed, and '" +
         peer_name_.get() + "' does not: leave out autosave");
@@ -98,7 +98,7 @@ void Joint::on_stop() {
   kept_.note_stop({.position = measured_.position,
                    .at_rest = at_rest,
                    .braked = braked,
-                   .exact = succeeds(position_exact_)});
+                   .exact = hardware_.is_exact()});
 }
 
 Outcome Joint::set_up() {
@@ -212,13 +212,13 @@ std::vector<DrivenJoint> Joint::joints_behind(const component::InputPortBase* /*
 // --- measuring -------------------------------------------------------------------------------
 
 void Joint::on_sample() {
-  if (is_in_time() && is_homing_watched()) succeeds(read_hardware_);
+  if (is_in_time() && is_homing_watched()) hardware_.read();
 }
 
 /// Without Sampler, whoever calls this samples it.
 double Joint::sensor_read() {
   displacement_read_ = std::numeric_limits<double>::quiet_NaN();
-  if (sampler_ || (is_in_time() && is_homing_watched())) succeeds(read_hardware_);
+  if (sampler_ || (is_in_time() && is_homing_watched())) hardware_.read();
   return displacement_read_;
 }
 

@@ -23,6 +23,7 @@
 #include "armature/controllers/joint/command_output.hpp"
 #include "armature/controllers/joint/homing_settings.hpp"
 #include "armature/controllers/joint/joint_model.hpp"
+#include "armature/controllers/joint/joint_peer.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
 #include "armature/controllers/joint/kept_position.hpp"
 #include "armature/controllers/joint/own_homing.hpp"
@@ -168,7 +169,7 @@ class Joint : public component::Component,
   void tell_homed();
   void fail_homing(const component::Reason& why, bool is_fault);
   bool is_homed_enough() {
-    return !settings_->homing_required || homed_.get() || succeeds(is_homed_);
+    return !settings_->homing_required || homed_.get() || hardware_.is_homed();
   }
 
   // Standing: joint_arming.cpp.
@@ -187,16 +188,10 @@ class Joint : public component::Component,
   bool cut_power();
   void cut_power_at_rest();
   bool motor_on(control::DrivePermit permit) {
-    return limiter_->armed() && succeeds(actuator_on_, permit);
+    return limiter_->armed() && hardware_.actuator_on(permit);
   }
   bool brake_apply() { return disarm(); }
   bool brake_release(control::DrivePermit permit);
-  template <typename... Arguments>
-  static bool succeeds(component::OperationCaller<bool(Arguments...)>& call,
-                       Arguments... arguments) {
-    const component::CallResult<bool> answer = call(arguments...);
-    return answer.status == component::CallStatus::kDone && answer.value;
-  }
 
   const JointCommand way_;  ///< its drive is commanded in
   const JointCommandNames& names_;
@@ -216,44 +211,7 @@ class Joint : public component::Component,
   JointModel model_{this, settings_, way_};
   KeptPosition kept_{this, settings_};
 
-  component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
-                                                    component::from(peer_name_)};
-  component::OperationCaller<bool()> is_as_told_{
-      this, "isAsTold", "actuator and brake have done what they were told last",
-      component::from(peer_name_), component::optional};
-  component::OperationCaller<bool()> position_known_{
-      this, "positionKnown", "nothing that moved was lost", component::from(peer_name_),
-      component::optional};
-  component::OperationCaller<bool()> position_exact_{this, "positionExact", "no sample was lost",
-                                                     component::from(peer_name_),
-                                                     component::optional};
-  component::OperationCaller<bool(control::DrivePermit)> home_by_itself_{
-      this, "homeByItself", "has it home", component::from(peer_name_), component::optional};
-  component::OperationCaller<int()> homing_stage_{this, "homingStage", "how far it is",
-                                                  component::from(peer_name_), component::optional};
-  component::OperationCaller<bool()> is_homed_{this, "isHomed", "its position is that of home",
-                                               component::from(peer_name_), component::optional};
-  component::OperationCaller<bool(control::DrivePermit, double)> begin_search_{
-      this, "beginHoming", "the joint looks for its position", component::from(peer_name_),
-      component::optional};
-  component::OperationCaller<bool(control::DrivePermit)> find_position_{
-      this, "positionFound", "the joint has found its position", component::from(peer_name_),
-      component::optional};
-  component::OperationCaller<double()> since_index_{
-      this, "sinceIndex", "of its index mark", component::from(peer_name_), component::optional};
-  component::OperationCaller<bool()> doubt_position_{
-      this, "doubtPosition", "has it ask for position_confirmed", component::from(peer_name_),
-      component::optional};
-  component::OperationCaller<bool(control::DrivePermit)> actuator_on_{
-      this, "actuatorOn", "switches the actuator on", component::from(peer_name_)};
-  component::OperationCaller<bool()> actuator_off_{this, "actuatorOff", "switches the actuator off",
-                                                   component::from(peer_name_)};
-  component::OperationCaller<bool()> apply_brake_{this, "brakeApply", "applies the brake",
-                                                  component::from(peer_name_),
-                                                  component::only_if(brake_)};
-  component::OperationCaller<bool(control::DrivePermit)> release_brake_{
-      this, "brakeRelease", "releases the brake", component::from(peer_name_),
-      component::only_if(brake_)};
+  JointPeer hardware_{this, peer_name_, brake_};
   component::EventHandler<> sample_handler_{
       this,
       "Sample",

@@ -32,7 +32,7 @@ void Joint::on_arm() {
   if (!is_homed_enough()) {
     return fail_to_arm("it is not homed, and HomingRequired is set: call its command home");
   }
-  if (position_known_.bound() && !succeeds(position_known_)) {
+  if (!hardware_.knows_position()) {
     if (kept_.is_doubtful()) return fail_to_arm(kept_.question(told(measured_.position)));
     if (homing_failed_) {
       return fail_to_arm(
@@ -56,7 +56,7 @@ void Joint::on_arm() {
   passed_ = false;
   phase_ = Phase::kTakingLoad;
   sequence_->begin(measured_.position, time());
-  if (brake_ && !succeeds(actuator_on_, limiter_->permit())) {
+  if (brake_ && !hardware_.actuator_on(limiter_->permit())) {
     fail_to_arm("its hardware does not switch on");
   }
 }
@@ -66,12 +66,11 @@ void Joint::go_on_arming() {
   const bool waits_for_motor = !brake_ && !sequence_->let_go();
   const double effort = effort_of(waits_for_motor ? commanded_ : sent_);
   const bool affordable = std::abs(effort) < max_effort();
-  const auto next =
-      sequence_->step({.position = measured_.position,
-                       .effort = effort,
-                       .caught_up = affordable && (passed_ || waits_for_motor),
-                       .driven = waits_for_motor || !is_as_told_.bound() || succeeds(is_as_told_)},
-                      time());
+  const auto next = sequence_->step({.position = measured_.position,
+                                     .effort = effort,
+                                     .caught_up = affordable && (passed_ || waits_for_motor),
+                                     .driven = waits_for_motor || hardware_.is_as_told()},
+                                    time());
   arming_moved_.assign(sequence_->moved());
   switch (next) {
     case ArmingSequence::Next::kWait:
@@ -97,10 +96,10 @@ void Joint::let_go() {
   bool done = false;
   if (brake_) {
     limiter_->end_rate_limit();
-    done = succeeds(release_brake_, limiter_->permit());
+    done = hardware_.release_brake(limiter_->permit());
   } else if (limiter_->arm(measured_, effort_of(commanded_))) {
     apply(commanded_);
-    done = phase_ == Phase::kLetGo && succeeds(actuator_on_, limiter_->permit());
+    done = phase_ == Phase::kLetGo && hardware_.actuator_on(limiter_->permit());
   }
   if (!done) fail_to_arm("its hardware does not switch on");
 }
@@ -269,7 +268,7 @@ bool Joint::brake_at_once() {
   own_.disarm();
   if (was_homing && !homed_now_ && home_.active()) home_.fail("disarmed, so it does not home");
   stand_still();
-  const bool braked = !brake_ || succeeds(apply_brake_);
+  const bool braked = !brake_ || hardware_.apply_brake();
   armed_.write(false);
   if (was_armed) log_info("disarmed");
   if (was_driven && !braked) log_error("the hardware did not confirm that it brakes");
@@ -284,7 +283,7 @@ bool Joint::switch_off() {
 
 bool Joint::cut_power() {
   off_at_rest_ = false;
-  return succeeds(actuator_off_);
+  return hardware_.actuator_off();
 }
 
 void Joint::cut_power_at_rest() {
@@ -294,7 +293,7 @@ void Joint::cut_power_at_rest() {
 
 bool Joint::brake_release(control::DrivePermit permit) {
   const bool held = phase_ == Phase::kLetGo || phase_ == Phase::kArmed;
-  return held && succeeds(release_brake_, permit);
+  return held && hardware_.release_brake(permit);
 }
 
 }  // namespace armature::controllers

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "armature/base/seconds.hpp"
 #include "armature/controllers/base/reason_text.hpp"
@@ -28,7 +29,7 @@ double four_digits(double number) { return std::round(number * 1e4) / 1e4; }
 }  // namespace
 
 Outcome Joint::begin_homing() {
-  if (homes_by_hardware() && (!home_by_itself_.bound() || !homing_stage_.bound())) {
+  if (homes_by_hardware() && !hardware_.homes()) {
     return component::refused(
         "its hardware does not home by itself: give the joint a HomingMethod");
   }
@@ -94,7 +95,7 @@ Outcome Joint::begin_by_hardware() {
     return component::refused("its position is not a finite number");
   }
   phase_ = Phase::kHoming;
-  if (succeeds(home_by_itself_, limiter_->permit())) return component::accepted();
+  if (hardware_.home(limiter_->permit())) return component::accepted();
   switch_off();
   return component::refused(
       "its hardware does not begin: give it a homing_method, and look at its state");
@@ -115,10 +116,9 @@ void Joint::follow_homing(double displacement) {
     append_number(why.append(" without finding home, and its range is "), range);
     return fail_homing(why.append(": braked. Look at the switch"), true);
   }
-  const auto stage = homing_stage_();
-  if (stage.status != component::CallStatus::kDone) return;
-  if (stage.value == kAtHome) return be_homed();
-  if (stage.value != kHomingFailed) return;
+  const std::optional<int> stage = hardware_.homing_stage();
+  if (stage == kAtHome) return be_homed();
+  if (stage != kHomingFailed) return;
   fail_homing("its hardware says that homing failed: braked. Look at its switch and its load",
               false);
 }
@@ -147,7 +147,7 @@ Outcome Joint::begin_by_itself() {
   looks_for_home_ = false;
   const bool ready = own_.hold() && begin_search();
   phase_ = Phase::kHoming;
-  if (ready && (!brake_ || succeeds(actuator_on_, own_.permit()))) {
+  if (ready && (!brake_ || hardware_.actuator_on(own_.permit()))) {
     sequence_->begin(measured_.position, time());
     return component::accepted();
   }
@@ -162,8 +162,7 @@ bool Joint::begin_search() {
   const double ratio =
       std::abs(sensor_ratio_);  // an effort of the joint is that of its motor by it
   const double most = own_.most_effort() * ratio;
-  return begin_search_.bound() ? succeeds(begin_search_, own_.permit(), most)
-                               : !std::isfinite(most);
+  return hardware_.begin_search(own_.permit(), most);
 }
 
 /// Once a sample.
@@ -180,12 +179,11 @@ void Joint::follow_own_homing(double displacement) {
 /// As when it is armed: it is held, let go, and watched.
 void Joint::let_go_to_home() {
   const bool waits_for_motor = !brake_ && !sequence_->let_go();
-  const auto next =
-      sequence_->step({.position = measured_.position,
-                       .effort = 0.0,
-                       .caught_up = true,
-                       .driven = waits_for_motor || !is_as_told_.bound() || succeeds(is_as_told_)},
-                      time());
+  const auto next = sequence_->step({.position = measured_.position,
+                                     .effort = 0.0,
+                                     .caught_up = true,
+                                     .driven = waits_for_motor || hardware_.is_as_told()},
+                                    time());
   switch (next) {
     case ArmingSequence::Next::kWait:
       return;
@@ -212,17 +210,15 @@ void Joint::let_go_to_home() {
 }
 
 bool Joint::switch_on_to_home() {
-  return brake_ ? succeeds(release_brake_, own_.permit()) : succeeds(actuator_on_, own_.permit());
+  return brake_ ? hardware_.release_brake(own_.permit()) : hardware_.actuator_on(own_.permit());
 }
 
 void Joint::look_for_home() {
-  const auto since = since_index_();
-  const bool passed = since.status == component::CallStatus::kDone && std::isfinite(since.value);
-  const OwnHoming::Status status =
-      own_.step({.way = homing_way_,
-                 .switch_closed = index_closed_,
-                 .index_passed = passed,
-                 .since_index = passed ? sensor_ratio_ * since.value : 0.0});
+  const std::optional<double> since = hardware_.since_index();
+  const OwnHoming::Status status = own_.step({.way = homing_way_,
+                                              .switch_closed = index_closed_,
+                                              .index_passed = since.has_value(),
+                                              .since_index = sensor_ratio_ * since.value_or(0.0)});
   if (status == OwnHoming::Status::kGoesOn) return;
   if (status == OwnHoming::Status::kHome) return be_homed_by_itself();
   fail_homing(own_.why(status, homing_way_).append(". Braked"), false);
@@ -240,7 +236,7 @@ void Joint::write_homing() {
 }
 
 void Joint::be_homed_by_itself() {
-  if (find_position_.bound() && !succeeds(find_position_, own_.permit())) {
+  if (!hardware_.find_position(own_.permit())) {
     return fail_homing("a sample of it was lost while it homed: home it again", false);
   }
   const double position = homing_->position + homing_way_ - own_.motion().found_at();
@@ -262,8 +258,7 @@ void Joint::be_at(double position) {
 
 /// Nothing moves, and nothing is switched on: the permit goes no farther than to say so.
 Outcome Joint::be_here() {
-  const bool found = own_.hold() && begin_search() &&
-                     (!find_position_.bound() || succeeds(find_position_, own_.permit()));
+  const bool found = own_.hold() && begin_search() && hardware_.find_position(own_.permit());
   own_.disarm();
   if (!found) return component::refused("its hardware does not run");
   be_at(homing_->position);
