@@ -81,7 +81,7 @@ class CountingDrive final : public armature::controllers::JointHardware {
     const double step = period_.seconds() / kSteps;
     const double before = marks_below();
     for (int k = 0; k < kSteps; ++k) move(step);
-    if (!fails("sensor")) shown_ = counted();
+    if (!fails("sensor")) shown_ = counted() + (fails("counter") ? kLost : 0.0);
     const double mark = kMark + kPitch * std::max(before, marks_below());
     const bool passed = before != marks_below() && !fails("index");
     since_index_ = passed ? angle_ - mark : std::numeric_limits<double>::quiet_NaN();
@@ -129,6 +129,7 @@ class CountingDrive final : public armature::controllers::JointHardware {
   static constexpr double kIntegral = 800.0;  // Nm/rad
   static constexpr double kMost = 40.0;       // Nm
   static constexpr double kCount = 1e-4;      // rad
+  static constexpr double kLost = 0.5;        // rad; by a counter that is out of order
   static constexpr double kStop = 1.6;        // rad
   static constexpr double kSwitch = -1.2;     // rad; closed below
   static constexpr double kMark = -1.1;       // rad; an index of the encoder, and each kPitch
@@ -141,10 +142,13 @@ class CountingDrive final : public armature::controllers::JointHardware {
                            0.0,  "torque that holds the link where it is level",
                            "Nm", range(-20.0, 20.0)};
   Property<double> begin_{this, "Begin", 0.0, "where it stands at first", "rad", range(-1.6, 1.6)};
-  Property<std::string> fails_{
-      this, "Fails",
-      "",   "what is out of order: switch_open, switch_closed, index, sensor, brake, stop (slips)",
-      "",   changeable_while_running};
+  Property<std::string> fails_{this,
+                               "Fails",
+                               "",
+                               "what is out of order: switch_open, switch_closed, index, sensor, "
+                               "counter, brake, stop (slips)",
+                               "",
+                               changeable_while_running};
   Attribute<double> really_{this, "angle", 0.0, "where it really is", "rad"};
 
   bool on_ = false;

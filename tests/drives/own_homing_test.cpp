@@ -222,6 +222,16 @@ TEST_P(OwnHoming, ASensorThatDiesEndsItAfterAFewHundredths) {
   }
 }
 
+TEST_P(OwnHoming, ACounterThatJumpsIsAFault) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  break_it("counter");
+  run_for(20ms);
+  EXPECT_TRUE(home_->ended());
+  EXPECT_THAT(robot_->reason("Joint1"), HasSubstr("PositionSensor says that it moved by 0.4"));
+  expect_rest_unhomed();
+}
+
 TEST_P(OwnHoming, ABrakeThatDoesNotOpenIsNoHardStop) {
   for (const char* method : {"switch", "index", "hard_stop"}) {
     SCOPED_TRACE(method);

@@ -245,7 +245,8 @@ void Joint::on_position(double of_motor) {
   }
   const auto reading = absolute_->step(of_motor, base::to_seconds(time() - measured_at_));
   if (!reading.jumped) return moved(reading.displacement, reading.position);
-  if (phase_ == Phase::kHoming && !homing_jumped_) return homing_jumped(reading.position);
+  const bool may_jump = phase_ == Phase::kHoming && homes_by_hardware() && !homing_jumped_;
+  if (may_jump) return homing_jumped(reading.position);
   switch_off();
   component::Reason why("PositionSensor says that it moved by ");
   append_number(why, reading.displacement)
