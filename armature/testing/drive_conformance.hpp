@@ -132,7 +132,8 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
     for (const auto& entry : application().blueprint().components) {
       const std::string& name = entry.component->name();
       const auto on = application().value_of(name, "switched_on");
-      if (on) EXPECT_FALSE(*static_cast<const bool*>(on.value().data())) << name << " is on";
+      const bool is_on = on && *static_cast<const bool*>(on.value().data());
+      EXPECT_FALSE(is_on) << name << " is on";
     }
   }
 
@@ -264,7 +265,9 @@ TEST_P(DriveConformance, AMotionArrivesAndBack) {
 TEST_P(DriveConformance, HardwareThatDoesNotRunIsNotArmed) {
   for (const std::string& hardware : GetParam().hardware) {
     SCOPED_TRACE(hardware);
-    if (!application().running()) ASSERT_NO_FATAL_FAILURE(start());
+    if (!application().running()) {
+      ASSERT_NO_FATAL_FAILURE(start());
+    }
     ASSERT_NO_FATAL_FAILURE(stop_hardware(hardware));
     run_for(std::chrono::milliseconds(20));
     const Joints rest = positions();
