@@ -146,7 +146,8 @@ void expect_homing() {
   HomedJoint<kWay> homed;
   ASSERT_TRUE(homed.joint.start()) << homed.joint.reason();
   homed.cycle();
-  const testing::RealtimeGuard guard;  // as expect_realtime_on_bench, "OwnHoming" and "JointPeer", but fewer times
+  const testing::RealtimeGuard
+      guard;  // as expect_realtime_on_bench, "OwnHoming" and "JointPeer", but fewer times
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(homed.home(), CommandStage::kDone) << homed.reason;
     homed.cycle();
