@@ -6,7 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "armature/base/seconds.hpp"
-#include "armature/component/check_of_threads.hpp"
+#include "armature/component/checking/check_of_threads.hpp"
 #include "python/native/bindings.hpp"
 #include "python/native/hook.hpp"
 #include "python/native/hosted_members.hpp"

@@ -11,13 +11,13 @@ namespace {
 
 /// What a joint did is compared with what it was told at least as often.
 constexpr double kWindow = 0.05;  // s
-constexpr int kFewestSteps = 5;
+constexpr int kStepsOfWindow = 5;
 /// Of what it was told: one that moves less does not move.
 constexpr double kLeastShare = 0.2;
 /// Of the tolerance: what moves less in a window rests.
 constexpr double kRestShare = 0.2;
 
-double window(double period_s) { return std::max(kWindow, kFewestSteps * period_s); }
+double window(double period_s) { return std::max(kWindow, kStepsOfWindow * period_s); }
 
 }  // namespace
 
