@@ -37,6 +37,16 @@ class AbsolutePosition {
   bool known() const { return known_; }
   /// By the last reading, also by one that jumped.
   double position() const { return position_; }
+  /// Where the joint is when the sensor says 0; within a range of it.
+  double offset() const { return config_.offset; }
+
+  /// The joint was found to be elsewhere than the sensor says, by so much.
+  /// @param by  finite
+  /// @rt nonblocking, no allocation
+  void shift(double by) {
+    config_.offset += by;
+    position_ += by;
+  }
 
   /// @param of_sensor  finite
   /// @param elapsed_s  since the reading before, >= 0; of no account in the first one

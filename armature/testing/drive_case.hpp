@@ -40,6 +40,9 @@ struct DriveCase {
   Act prepare = [](exec::Application&) {};
   /// Where the joints really are; by default where the application believes them to be.
   std::function<Joints(exec::Application&)> positions{};
+  /// Whether any drive has power, as the drives themselves have it; by default whether a component
+  /// that is a JointHardware was switched on, and did not take to be switched off.
+  std::function<bool(exec::Application&)> powered{};
   /// Of drives for which time passes also when nobody asks them for anything any more: the time
   /// that it is for them, and what has it pass until another.
   std::function<base::Time(exec::Application&)> time{};

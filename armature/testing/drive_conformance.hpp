@@ -123,7 +123,21 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
     EXPECT_TRUE(armed()) << reasons();
   }
 
-  /// It comes to rest in time, is not armed, and stays both.
+  /// A brake that is closed hides a motor that drives against it, until one of them gives way.
+  void expect_no_power() {
+    if (GetParam().powered) {
+      EXPECT_FALSE(GetParam().powered(application())) << "a drive is on\n" << reasons();
+      return;
+    }
+    for (const auto& entry : application().blueprint().components) {
+      const std::string& name = entry.component->name();
+      const auto on = application().value_of(name, "switched_on");
+      const bool is_on = on && *static_cast<const bool*>(on.value().data());
+      EXPECT_FALSE(is_on) << name << " is on";
+    }
+  }
+
+  /// It comes to rest in time, is not armed, has no power, and stays so.
   void expect_rest() {
     const double at_rest =
         (kAtRest + GetParam().sinks) * std::chrono::duration<double>(kLook).count();
@@ -138,6 +152,7 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
     run_for(std::chrono::milliseconds(500));
     EXPECT_LT(apart(rest, positions()), stillness(std::chrono::milliseconds(500))) << reasons();
     EXPECT_FALSE(armed()) << reasons();
+    expect_no_power();
     RecordProperty("moves_for_ms", static_cast<int>(moved / std::chrono::milliseconds(1)));
   }
   /// The cause is gone: nothing moves before somebody arms, and then all is as before.
@@ -225,6 +240,7 @@ TEST_P(DriveConformance, NothingIsArmedAndNothingMovesBeforeTheOperatorArms) {
   const Joints rest = positions();
   run_for(std::chrono::seconds(2));
   EXPECT_FALSE(armed());
+  expect_no_power();
   EXPECT_LT(apart(rest, positions()), stillness(std::chrono::seconds(2)));
 }
 
@@ -249,7 +265,9 @@ TEST_P(DriveConformance, AMotionArrivesAndBack) {
 TEST_P(DriveConformance, HardwareThatDoesNotRunIsNotArmed) {
   for (const std::string& hardware : GetParam().hardware) {
     SCOPED_TRACE(hardware);
-    if (!application().running()) ASSERT_NO_FATAL_FAILURE(start());
+    if (!application().running()) {
+      ASSERT_NO_FATAL_FAILURE(start());
+    }
     ASSERT_NO_FATAL_FAILURE(stop_hardware(hardware));
     run_for(std::chrono::milliseconds(20));
     const Joints rest = positions();
@@ -258,6 +276,7 @@ TEST_P(DriveConformance, HardwareThatDoesNotRunIsNotArmed) {
     EXPECT_FALSE(armed()) << reasons();
     const double most = 2.0 * kArmingMotion + GetParam().sinks * 3.1;
     EXPECT_LT(apart(rest, positions()), most) << reasons();
+    expect_no_power();
     put_back_into_service();
   }
 }

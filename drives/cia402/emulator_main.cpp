@@ -15,6 +15,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/can/host_wire.hpp"
 #include "armature/platform/clock.hpp"
+#include "armature/platform/own_priority.hpp"
 #include "armature/platform/stop_signal.hpp"
 #include "armature/platform/terminal.hpp"
 #include "drives/canopen/eds.hpp"
@@ -34,6 +35,8 @@ constexpr base::Duration kMostBehind = std::chrono::milliseconds(1);
 constexpr base::Duration kLastAnswers = std::chrono::milliseconds(100);
 constexpr std::string_view kVirtual = "virtual:";
 constexpr std::uint32_t kBitRate = 1'000'000;
+/// Above the components of hosts, as drives have processors of their own, and below guardians.
+constexpr int kPriority = 90;
 
 struct Arguments {
   std::string bus;
@@ -170,6 +173,10 @@ int run(const Arguments& arguments) {
     wire = can::make_interface_wire(bus, arguments.bus, diagnostics);
   }
   if (wire == nullptr) return fail(base::as_reason(diagnostics));
+  if (!platform::set_own_priority(kPriority)) {
+    say("the system refuses SCHED_FIFO: on a busy machine the drives answer late, as real ones do "
+        "not");
+  }
   say("drives are there: " + std::to_string(drives.value()->size()) + ", from node " +
       std::to_string(arguments.first_node) + " on");
   Session(*drives.value(), *wire, pipe).run(stop);

@@ -2,21 +2,15 @@
 #include "drives/cia402_components/cia402_host.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/controllers/base/max_age.hpp"
-#include "drives/canopen/count_devices.hpp"
 #include "drives/canopen/nmt.hpp"
-#include "drives/canopen/sdo_channel.hpp"
-#include "drives/cia402/compare_eds.hpp"
-#include "drives/cia402/drive_settings.hpp"
-#include "drives/cia402/objects.hpp"
-#include "drives/cia402/prepare_drive.hpp"
 #include "drives/cia402_components/bus_plan.hpp"
+#include "drives/cia402_components/prepare_bus.hpp"
 
 namespace armature::cia402 {
 
@@ -24,10 +18,6 @@ using component::Outcome;
 
 namespace {
 
-using namespace std::chrono_literals;
-
-/// In which a drive takes a command of NMT.
-constexpr base::Duration kNmtTime = 5ms;
 constexpr int kLastNode = 127;
 /// What torques of drives are told in: thousandths of the rated one.
 constexpr int kRated = 1000;
@@ -42,11 +32,6 @@ base::Duration pause_between(const DriveGroup& drives, base::Duration period) {
   std::size_t questions = 0;
   for (std::size_t i = 0; i < drives.size(); ++i) questions += drives.config(i).slow.size();
   return questions > 0 ? period / static_cast<int>(questions) : period;
-}
-
-void pass_time(can::Link& link, base::Duration time) {
-  const base::Time until = link.now() + time;
-  while (link.now() < until) link.wait_for_news(until);
 }
 
 }  // namespace
@@ -121,46 +106,12 @@ void Cia402Host::find_places() {
   find_homing();
 }
 
-/// All that is wrong with all drives is told at once.
 Outcome Cia402Host::prepare() {
-  using canopen::NmtCommand;
-  link_->bus().send(canopen::nmt_frame(NmtCommand::kEnterPreOperational, canopen::kEveryNode));
-  pass_time(*link_, kNmtTime);
-  base::Diagnostics diagnostics;
-  std::vector<DriveConfig> configs;
-  for (const DrivePlan& plan : plans_) {
-    if (auto config = prepare(plan, diagnostics)) configs.push_back(*std::move(config));
-  }
-  if (!diagnostics.ok()) return component::refused(base::as_reason(diagnostics));
-  auto group = DriveGroup::make(std::move(configs));
+  auto group = prepare_bus(*link_, plans_, asks_slowly());
   if (!group) return component::refused(group.error());
   group_.emplace(std::move(group).value());
   background_.emplace(*group_, pause_between(*group_, base::from_seconds(slow_period_)));
-  link_->bus().send(canopen::nmt_frame(NmtCommand::kStart, canopen::kEveryNode));
-  pass_time(*link_, kNmtTime);
   return component::accepted();
-}
-
-std::optional<DriveConfig> Cia402Host::prepare(const DrivePlan& plan,
-                                               base::Diagnostics& diagnostics) {
-  const DriveWish& wish = plan.wish;
-  if (const int devices = canopen::count_devices(*link_, wish.node); devices > 1) {
-    diagnostics.error({},
-                      "drive '" + wish.name + "', node " + std::to_string(wish.node) + ": " +
-                          std::to_string(devices) + " devices answer as this node, expected one",
-                      std::string("give each device on the bus its own number"));
-    return std::nullopt;
-  }
-  canopen::SdoChannel channel(*link_, wish.node);
-  const bool is_described =
-      !plan.eds || compare_with_eds(channel, *plan.eds, plan.eds_file, wish, diagnostics);
-  if (!is_described) return std::nullopt;
-  auto config = prepare_drive(channel, wish, diagnostics);
-  if (!config || slow_period_ <= 0.0) return config;
-  config->slow = {object::kCurrent};
-  if (plan.temperature) config->slow.push_back(*plan.temperature);
-  if (wish.homing) config->slow.push_back(object::kModeDisplay);
-  return config;
 }
 
 /// With a SYNC whose answers are there when the first cycle begins.
@@ -190,17 +141,9 @@ void Cia402Host::on_stop() {
   group_->set_heartbeat(static_cast<canopen::NodeId>(host_node_.get()), {}, link_->now());
 }
 
-/// A drive that does not take it now is seen by its missing answers.
 void Cia402Host::begin_heartbeat() {
   if (host_heartbeat_ <= 0.0) return;
-  for (const DrivePlan& plan : plans_) {
-    canopen::SdoChannel channel(*link_, plan.wish.node);
-    const auto settings = settings_of(plan.wish);
-    for (const Setting& setting : settings.value()) {
-      if (setting.address != kConsumedHeartbeat) continue;
-      static_cast<void>(channel.write(setting.address, setting.type, setting.value));
-    }
-  }
+  announce_heartbeat(*link_, plans_);
   group_->set_heartbeat(static_cast<canopen::NodeId>(host_node_.get()),
                         base::from_seconds(host_heartbeat_), link_->now());
 }

@@ -102,7 +102,6 @@ class Cia402Host : public component::Component {
   void find_places();
   void find_homing();
   component::Outcome prepare();
-  std::optional<DriveConfig> prepare(const DrivePlan& plan, base::Diagnostics& diagnostics);
   bool set_target(int node, CyclicMode mode, double target);
   void watch_torques();
   void step_homing();

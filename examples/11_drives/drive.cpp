@@ -108,9 +108,12 @@ class Drive final : public armature::controllers::JointHardware {
   double angle_ = 0.0;
 };
 
+void add_counting_drive(armature::component::Registry& registry);  // counting_drive.cpp
+
 }  // namespace drive
 
 ARMATURE_COMPONENT_LIBRARY(drive, registry) {
   registry.add<drive::Drive>("Drive", "a drive with an absolute sensor",
                              armature::component::Granularity::kAtomic);
+  drive::add_counting_drive(registry);
 }

@@ -14,7 +14,6 @@
 #include "armature/tls/transport.hpp"
 #include "armature/websocket/transport.hpp"
 #include "python/native/bindings.hpp"
-#include "python/native/python_component.hpp"
 
 namespace armature::python {
 namespace {
@@ -67,26 +66,8 @@ Deployed::Deployed(const Request& request)
                       ? deploy::load_deployment(request.file, options_for(request, *network_))
                       : deploy::parse_deployment(request.text, request.file,
                                                  options_for(request, *network_))) {
-  if (deployment_.ok()) refuse_python_in_real_time();
   if (!deployment_.document.network.listen.empty()) {
     network_->check(deployment_.document, deployment_.diagnostics);
-  }
-}
-
-/// It waits for the interpreter's lock, and collects garbage, whenever it likes.
-void Deployed::refuse_python_in_real_time() {
-  const exec::Blueprint& blueprint = deployment_.blueprint;
-  for (const exec::ThreadPlan& thread : deployment_.plan.threads) {
-    if (thread.activity.scheduler == exec::Activity::Scheduler::kOther) continue;
-    for (const exec::Index member : thread.members) {
-      const exec::ComponentEntry& entry = blueprint.components[member];
-      if (dynamic_cast<const PythonComponent*>(entry.component.get()) == nullptr) continue;
-      deployment_.diagnostics.error(
-          entry.where,
-          base::quoted(entry.component->name()) + " is written in Python, and would run in " +
-              base::quoted(thread.name) + ", which is a real-time thread",
-          "give it an activity without a priority, or take the priority from the thread's");
-    }
   }
 }
 

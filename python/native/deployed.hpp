@@ -37,8 +37,6 @@ class Deployed {
   deploy::Deployment take() { return std::move(deployment_); }
 
  private:
-  void refuse_python_in_real_time();
-
   std::unique_ptr<remote::Network> network_;
   deploy::Deployment deployment_;
 };

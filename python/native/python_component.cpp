@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/checking/check_of_threads.hpp"
 #include "python/native/bindings.hpp"
 #include "python/native/hook.hpp"
 #include "python/native/hosted_members.hpp"
@@ -64,6 +65,14 @@ void PythonComponent::log(const std::string& level, const std::string& text) {
   if (level == "warning") return log_warning("{}", text);
   if (level == "debug") return log_debug("{}", text);
   log_info("{}", text);
+}
+
+/// The interpreter waits for its lock, and collects garbage, whenever it likes.
+void PythonComponent::on_check(component::Check& check) const {
+  const auto* const threads = component::CheckOfThreads::of(check);
+  if (threads == nullptr || !threads->is_real_time()) return;
+  check.error("it is written in Python, and its thread is a real-time one",
+              "give it an activity without a priority, or take the priority from its thread");
 }
 
 Outcome PythonComponent::on_configure() {

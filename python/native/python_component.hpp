@@ -29,6 +29,8 @@ class PythonComponent final : public component::Component {
   PythonComponent(std::string name, std::shared_ptr<const Model> model);
   ~PythonComponent() override;
 
+  void on_check(component::Check& check) const override;
+
   HostedMember& member(const std::string& name) const;
   double time_s() const;
   double period_s() const;

@@ -129,7 +129,7 @@ def test_the_check_refuses_them_in_a_real_time_thread(file, setting):
     # Twice runs in the thread of Ramp, which triggers it.
     assert {one.message.split("'")[1] for one in refusals} == {"Ramp", "Twice"}
     assert all("written in Python" in one.message and one.line > 0 and "priority" in one.hint for one in refusals)
-    with pytest.raises(armature.DeploymentError, match="real-time thread"):
+    with pytest.raises(armature.DeploymentError, match="its thread is a real-time one"):
         load(file, set=setting)
 
 

@@ -22,6 +22,11 @@ void pass_until(exec::Application& application, base::Time time) {
   }
 }
 
+bool powered(exec::Application& application) {
+  return drives_of(application).drive(0).power() == cia402::PowerState::kOperationEnabled ||
+         drives_of(application).drive(1).power() == cia402::PowerState::kOperationEnabled;
+}
+
 void mend(exec::Application& application) {
   for (std::size_t i = 0; i < 2; ++i) drives_of(application).drive(i).set_deaf_to_sync(false);
   for (int node = 1; node <= 2; ++node) {
@@ -37,6 +42,7 @@ DriveCase drive_by(const std::string& mode) {
       .hardware = {"Bus", "Drive1", "Drive2"},
       .away = {1.0, -0.8},
       .positions = positions_of,
+      .powered = powered,
       .time = [](exec::Application& application) { return drives_of(application).bus().now(); },
       .pass = pass_until,
       .silence =

@@ -30,6 +30,12 @@ DriveCase head(const std::string& file) {
             return DriveCase::Joints{janus_of(application).position(0),
                                      janus_of(application).position(1)};
           },
+      .powered =
+          [](exec::Application& application) {
+            janus::Simulation& simulation = janus_of(application).simulation();
+            return simulation.card(0).state() == janus::AicState::kOn ||
+                   simulation.card(1).state() == janus::AicState::kOn;
+          },
       .time =
           [](exec::Application& application) { return janus_of(application).simulation().now(); },
       .pass = pass_until,

@@ -18,6 +18,7 @@ JOINTS = (1, 2, 6, 7)
 DESCRIPTIONS = {"robots/wam/wam7.urdf": 7, "robots/wam/wam4.urdf": 4, "robots/janus/janus.urdf": 2,
                 "armature/controllers/model/testdata/pan_tilt.urdf": 2,
                 "armature/controllers/forward_kinematics/testdata/two_links.urdf": 2}
+PROMISING = "can"  # its drives
 WARNINGS = "-Wall -Wextra -Wconversion -Wshadow -Wpedantic -Werror"
 
 
@@ -42,9 +43,9 @@ class Installed:
         self.call(self.armature, "new", "robot", "arm", "--joints", joints, "--drive", kind, *further, cwd=parent)
         return parent / "arm"
 
-    def build(self, robot):
+    def build(self, robot, *further):
         self.call(self.cmake, "-G", "Ninja", "-S", robot, "-B", robot / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}",
-                  f"-DCMAKE_CXX_COMPILER={self.compiler}", f"-DCMAKE_CXX_FLAGS={WARNINGS}", "-DCMAKE_BUILD_TYPE=Debug")
+                  f"-DCMAKE_CXX_COMPILER={self.compiler}", f"-DCMAKE_CXX_FLAGS={WARNINGS}", "-DCMAKE_BUILD_TYPE=Debug", *further)
         self.call(self.cmake, "--build", robot / "build")
 
     def moves(self, robot):
@@ -62,8 +63,11 @@ class Installed:
         robots = [self.new(f"of_{joints}", kind, joints) for joints in JOINTS]
         robots += [self.new(Path(file).stem, kind, joints, "--urdf", self.source / file)
                    for file, joints in DESCRIPTIONS.items()]
-        self.build(robots[0])
-        self.call("ctest", "--test-dir", robots[0] / "build")
+        # What every drive promises is compiled for half a minute: once is enough.
+        self.build(robots[0], *[] if kind == PROMISING else ["-DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON"])
+        told = self.call("ctest", "--test-dir", robots[0] / "build")
+        if ("arm_promises" in told) != (kind == PROMISING):
+            sys.exit(f"error: the robot by {PROMISING} should test what drives promise:\n{told}")
         for robot in robots[1:]:
             shutil.copytree(robots[0] / "build", robot / "build")
         for robot in robots:

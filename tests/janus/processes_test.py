@@ -197,6 +197,33 @@ class Processes(unittest.TestCase):
         self.assert_at_rest_and_off()
         self.assertNotIn("watchdog", self.plant.now()["state"])
 
+    def let_home(self, controller):
+        """Its first joint is on its way to its switch, from where a motion has left it."""
+        for _ in range(10):
+            self.let_move(controller)
+            controller.ask("Arming:disarm()")
+            self.wait_for_rest()
+            begin = self.plant.now()["position"][0]
+            controller.say("Joint1:home()")
+            try:
+                wait_for(lambda: begin - self.plant.now()["position"][0] > 0.05, "it homes", 10.0)
+                return
+            except AssertionError:
+                controller.mend()
+        self.fail("it never homes: " + controller.text())
+
+    def test_a_controller_that_is_killed_while_a_joint_homes_has_its_cards_switched_off(self):
+        settings = {"Method": "switch", "Velocity": "-0.1", "Travel": "3 rad", "Effort": "4 V", "Stiffness": "60",
+                    "Damping": "1"}
+        controller = self.start_controller(*[word for name, value in settings.items()
+                                             for word in ("--set", f"Joint1.Homing{name}={value}")])
+        self.let_home(controller)
+        controller.process.kill()
+        wait_for(lambda: "are idle" in controller.text(), "the guardian ends")
+        self.assertEqual(self.plant.now()["brake_released"], [False, False])
+        self.wait_for_rest()
+        self.assert_at_rest_and_off()
+
     def test_a_controller_that_was_stopped_faults_and_moves_nothing_when_it_goes_on(self):
         controller = self.start_controller()
         self.let_move(controller)

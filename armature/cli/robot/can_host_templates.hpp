@@ -112,6 +112,7 @@ class CanHost : public @Name@Host {
   bool set_power(int node, Power power) override;
 
   void begin_cycle();
+  void keep_cycle();
   void take_answers();
   void tell_drives();
   void pass_time(armature::base::Duration time);
@@ -119,6 +120,12 @@ class CanHost : public @Name@Host {
 
   Property<std::vector<int>> nodes_{this, "nodes", {}, "of the drives, 1 to 127", "", mandatory};
   armature::controllers::SamplingPeriod period_{this};
+  EventHandler<> sample_{this,
+                         "Sample",
+                         serve<&CanHost::keep_cycle>,
+                         "keeps the cycle when no drive is read any more",
+                         optional,
+                         leads_to_nothing()};
   std::unique_ptr<armature::can::Link> link_;
   std::vector<Drive> drives_;
   armature::base::Time cycle_at_ = armature::base::Time::min();
@@ -236,6 +243,13 @@ void CanHost::begin_cycle() {
   link_->begin_cycle(time());
   take_answers();
   tell_drives();
+}
+
+/// Drives whose components have ended hear that they are to be off.
+void CanHost::keep_cycle() {
+  const bool was_read =
+      cycle_at_ != armature::base::Time::min() && time() < cycle_at_ + 3 * cycle() / 2;
+  if (!was_read && is_guarded()) begin_cycle();
 }
 
 void CanHost::take_answers() {

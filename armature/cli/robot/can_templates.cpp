@@ -32,7 +32,7 @@ add_test(NAME @name@_check COMMAND armature::program check ${PROJECT_SOURCE_DIR}
 set_tests_properties(@name@_check PROPERTIES FAIL_REGULAR_EXPRESSION "warning:;error:")
 add_test(NAME @name@_moves COMMAND armature::program run --sim --for 60s --script ${PROJECT_SOURCE_DIR}/move.lua
                                    ${PROJECT_SOURCE_DIR}/simulated.yaml)
-)";
+@promises@)";
 
 constexpr std::string_view kCanLibrary = R"(#include "@name@_can_host.hpp"
 #include "@name@_drive.hpp"
@@ -91,6 +91,7 @@ If Armature is not installed in /usr or /usr/local, tell CMake where: `-DCMAKE_P
 | `controller.yaml` | everything between drives and motions |
 | `simulated.yaml`, `on_can.yaml` | the drives: simulated, or on a CAN interface |
 | `move.lua` | a motion, which asserts that it arrives |
+| `promises_test.cpp` | a test of what every drive promises; it needs GoogleTest (Debian: libgtest-dev) |
 | `recorded.yaml` | the simulated arm with a recording for `armature report` |
 
 `armature check simulated.yaml` finds mistakes, `armature graph simulated.yaml` draws the wiring.

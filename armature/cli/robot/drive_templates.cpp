@@ -8,6 +8,9 @@ namespace {
 
 constexpr std::string_view kCia402Build = R"(cmake_minimum_required(VERSION 3.25)
 project(@name@ LANGUAGES CXX)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
 find_package(armature 0.1 REQUIRED)
 
 enable_testing()
@@ -15,7 +18,7 @@ add_test(NAME @name@_check COMMAND armature::program check ${PROJECT_SOURCE_DIR}
 set_tests_properties(@name@_check PROPERTIES FAIL_REGULAR_EXPRESSION "warning:;error:")
 add_test(NAME @name@_moves COMMAND armature::program run --sim --for 60s --script ${PROJECT_SOURCE_DIR}/move.lua
                                    ${PROJECT_SOURCE_DIR}/simulated.yaml)
-)";
+@promises@)";
 
 constexpr std::string_view kCia402Simulated =
     R"(# armature run --sim --script move.lua simulated.yaml
@@ -43,10 +46,10 @@ components:
 
 constexpr std::string_view kCia402Readme = R"(# @Name@
 
-An arm with @joints@ joints, whose drives speak CiA 402 on CANopen. It needs no C++. Test it, then move it in simulation:
+An arm with @joints@ joints, whose drives speak CiA 402 on CANopen. It needs no C++ but for its test. Test it, then move it in simulation:
 
 ```sh
-cmake -S . -B build && ctest --test-dir build
+cmake -S . -B build && cmake --build build && ctest --test-dir build
 armature run --sim --script move.lua --out out recorded.yaml
 armature report out
 ```
@@ -58,6 +61,7 @@ armature report out
 | `controller.yaml` | everything between drives and motions |
 | `simulated.yaml`, `on_can.yaml` | the drives: emulated, or on a CAN interface |
 | `move.lua` | a motion, which asserts that it arrives |
+| `promises_test.cpp` | a test of what every drive promises; it needs GoogleTest (Debian: libgtest-dev) |
 | `recorded.yaml` | the simulated arm with a recording for `armature report` |
 
 `armature check simulated.yaml` finds mistakes, `armature graph simulated.yaml` draws the wiring.

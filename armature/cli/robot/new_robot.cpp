@@ -103,6 +103,40 @@ std::string nodes_up_to(std::size_t joints) {
   return text;
 }
 
+/// Names of components, as C++ has them: `"Drive1", "Drive2"`.
+std::string hardware_of(std::size_t joints) {
+  std::string text;
+  for (std::size_t i = 1; i <= joints; ++i) {
+    text += (i > 1 ? ", " : "") + ("\"Drive" + std::to_string(i)) + "\"";
+  }
+  return text;
+}
+
+/// What the test of a new robot knows of its kind of drives.
+std::string case_lines(DriveKind drive, std::size_t joints) {
+  if (drive != DriveKind::kCia402) return {};
+  return "  robot.mend = [](exec::Application& application) {\n"
+         "    for (int node = 1; node <= " +
+         std::to_string(joints) +
+         "; ++node) {\n"
+         "      static_cast<void>(application.call(\"Bus\", \"resetDrive\", "
+         "{types::Value::of(node)}));\n"
+         "    }\n"
+         "  };\n";
+}
+
+constexpr std::string_view kPromisesBuild = R"(find_package(GTest)
+if(GTest_FOUND)
+  add_executable(@name@_promises promises_test.cpp)
+  target_link_libraries(@name@_promises PRIVATE armature::deploy GTest::gtest_main)
+  target_compile_definitions(@name@_promises PRIVATE ROBOT_FOLDER="${PROJECT_SOURCE_DIR}"
+                                                     LIBRARY_FOLDER="${ARMATURE_COMPONENT_FOLDER}")
+  add_test(NAME @name@_promises COMMAND @name@_promises)
+else()
+  message(STATUS "No GoogleTest (Debian: libgtest-dev), so @name@_promises is not built")
+endif()
+)";
+
 Words words_for(const RobotWish& wish, const std::string& library, const Plans& plans) {
   const Kind kind = kind_of(wish.drive);
   const bool by_torque = wish.drive != DriveKind::kCia402;
@@ -121,6 +155,9 @@ Words words_for(const RobotWish& wish, const std::string& library, const Plans& 
       {"rotor", figures_of(rotor_inertia(wish))},
       {"simulated_rotor", figures_of(std::max(rotor_inertia(wish), kLeastRotor))},
       {"delay", figures_of(kind.delay_s)},
+      {"hardware", hardware_of(plans.size())},
+      {"case", case_lines(wish.drive, plans.size())},
+      {"promises", filled(kPromisesBuild, name)},
       {"joint_lines", joint_lines(plans, by_torque)},
       {"controller", filled(controller_lines(plans, by_torque), name)},
       {"max_vel", in_list(plans, &JointPlan::motion_velocity)},

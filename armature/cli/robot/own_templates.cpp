@@ -28,7 +28,7 @@ add_test(NAME @name@_check COMMAND armature::program check ${PROJECT_SOURCE_DIR}
 set_tests_properties(@name@_check PROPERTIES FAIL_REGULAR_EXPRESSION "warning:;error:")
 add_test(NAME @name@_moves COMMAND armature::program run --sim --for 60s --script ${PROJECT_SOURCE_DIR}/move.lua
                                    ${PROJECT_SOURCE_DIR}/simulated.yaml)
-)";
+@promises@)";
 
 constexpr std::string_view kOwnLibrary = R"(#include <algorithm>
 #include <optional>
@@ -133,6 +133,7 @@ If Armature is not installed in /usr or /usr/local, tell CMake where: `-DCMAKE_P
 | `@name@_drive.hpp`, `@name@_drive.cpp` | the drive of one joint |
 | `@name@.cpp`, `@name@_plant.hpp` | the simulated drives |
 | `move.lua` | a motion, which asserts that it arrives |
+| `promises_test.cpp` | a test of what every drive promises; it needs GoogleTest (Debian: libgtest-dev) |
 | `recorded.yaml` | the simulated arm with a recording for `armature report` |
 
 `armature check simulated.yaml` finds mistakes, `armature graph simulated.yaml` draws the wiring.

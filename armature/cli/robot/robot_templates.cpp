@@ -101,13 +101,39 @@ reach(array(@start@))
 stop()
 )";
 
+constexpr std::string_view kRobotPromises =
+    R"(// What every drive promises, asked of this robot in simulation: nothing moves before the operator arms, arming moves nothing,
+// and whatever ends a motion, the joints rest, stay there and have no power until they are armed again. `silence` and `fail` of
+// DriveCase say how your drives break; `positions` and `powered` how they really are.
+#include "armature/testing/drive_conformance.hpp"
+
+namespace armature::testing {
+namespace {
+
+DriveCase @name@() {
+  DriveCase robot;
+  robot.name = "@Name@";
+  robot.file = ROBOT_FOLDER "/simulated.yaml";
+  robot.library_folders = {LIBRARY_FOLDER};
+  robot.hardware = {@hardware@};
+  robot.away = {@target@};
+@case@  return robot;
+}
+
+INSTANTIATE_TEST_SUITE_P(Robot, DriveConformance, ::testing::Values(@name@()), by_name);
+
+}  // namespace
+}  // namespace armature::testing
+)";
+
 constexpr std::string_view kRobotIgnore = "build/\nout/\n";
 
-constexpr std::array<FileTemplate, 5> kRobotFiles = {{
+constexpr std::array<FileTemplate, 6> kRobotFiles = {{
     {"controller.yaml", kRobotController},
     {"@name@.yaml", kRobotFile},
     {"recorded.yaml", kRobotRecorded},
     {"move.lua", kRobotScript},
+    {"promises_test.cpp", kRobotPromises},
     {".gitignore", kRobotIgnore},
 }};
 

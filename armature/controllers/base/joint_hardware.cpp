@@ -91,6 +91,7 @@ JointHardware::JointHardware(const std::string& name, std::initializer_list<Join
                                                   "rad")
                   : component::OutputPort<double>(this, "PositionSensor",
                                                   "where the motor's axis is", "rad")),
+      sensor_kind_(sensor),
       commands_(std::make_unique<CommandInputs>(*this, commands)) {}
 
 JointHardware::~JointHardware() = default;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,8 +29,16 @@ namespace armature::controllers {
 /// Whenever it stops or faults, also because the joint did: effort 0, brake applied, actuator off.
 class JointHardware : public component::Component {
  public:
-  /// What its sensor tells: how far the axis turned, or where it is.
-  enum class Sensor { kIncremental, kAbsolute };
+  /// What its sensor tells: how far the axis turned, where it is, or where it is by a counter that
+  /// began anywhere when it was switched on.
+  enum class Sensor { kIncremental, kAbsolute, kCounting };
+
+  /// What a joint that homes by itself can find its position by.
+  struct HomingSigns {
+    bool home_switch = false;    ///< IndexSensor tells of a real one
+    bool index_mark = false;     ///< of its encoder; `since_index` tells
+    bool bounds_effort = false;  ///< of its drive, as `bound_effort` says
+  };
 
   /// A drive that is given voltages, and whose sensor is an incremental one.
   explicit JointHardware(const std::string& name)
@@ -44,6 +54,9 @@ class JointHardware : public component::Component {
   /// Its sensor is of the shaft behind the gear, which it knows by itself.
   /// @thread configuration only
   virtual bool tells_of_shaft() const { return false; }
+  /// @thread configuration only
+  virtual HomingSigns homing_signs() const { return {}; }
+  Sensor sensor() const { return sensor_kind_; }
 
  protected:
   virtual bool actuator_on() = 0;
@@ -61,12 +74,19 @@ class JointHardware : public component::Component {
   /// What it was told of its actuator and brake last has been done. Hardware that takes its time
   /// says so; a joint is not armed before, and if it takes longer than a few seconds never.
   virtual bool is_as_told() const { return true; }
+  /// Of hardware with an index mark: by how much the axis has turned since it passed the mark, if
+  /// it has between the last two readings [rad]; nan if it has not.
+  virtual double since_index() const { return std::numeric_limits<double>::quiet_NaN(); }
+  /// Of hardware that bounds the effort of a drive that follows velocities or positions.
+  /// @param most  that the drive gives from now on, > 0 [Nm at the motor]; infinite: what it can
+  virtual bool bound_effort(double /*most*/) { return false; }
 
   /// A sample was lost, and what moved meanwhile with it: where the joint is, is not known until
   /// the operator has looked. It goes on if it is armed, and is not armed again before.
   /// @rt nonblocking, no allocation
   void lose_position() {
     is_exact_ = false;
+    homes_exactly_ = false;
     tell_exact();
     position_confirmed_.withdraw();
   }
@@ -102,6 +122,26 @@ class JointHardware : public component::Component {
     return true;
   }
   bool position_exact() { return is_exact_; }
+  /// The joint looks for its position: what was known of it counts no more until it has found it,
+  /// or the operator has looked.
+  bool begin_homing(control::DrivePermit permit, double most_effort) {
+    if (!runs() || !permit) return false;
+    position_confirmed_.withdraw();
+    homes_exactly_ = true;
+    doubt_position();
+    if (!std::isfinite(most_effort)) return true;
+    is_bounded_ = true;
+    return bound_effort(most_effort);
+  }
+  /// @return false if a sample was lost on the way there
+  bool find_position(control::DrivePermit permit) {
+    if (!permit || !homes_exactly_) return false;
+    is_exact_ = true;
+    is_doubted_ = false;
+    tell_exact();
+    return true;
+  }
+  double index_passed() { return since_index(); }
   bool as_told() { return runs() && is_as_told(); }
   void tell_exact() { position_exact_.assign(is_exact_ && !is_doubted_); }
 
@@ -131,11 +171,16 @@ class JointHardware : public component::Component {
   bool switch_on(control::DrivePermit permit) {
     if (!runs()) return false;
     permit_ = permit;
-    return permit && actuator_on();
+    if (!permit) return false;
+    switched_on_.assign(true);
+    return actuator_on();
   }
   bool switch_off() {
     const bool off = actuator_off();
+    if (off) switched_on_.assign(false);
     permit_ = {};
+    if (is_bounded_) bound_effort(std::numeric_limits<double>::infinity());
+    is_bounded_ = false;
     return off;
   }
   bool open_brake(control::DrivePermit permit) { return runs() && permit && brake_release(); }
@@ -150,6 +195,8 @@ class JointHardware : public component::Component {
     count_refusals(position_set(position));
   }
   void count_refusals(bool taken);
+
+  const Sensor sensor_kind_;
 
   /// The inputs for what it can be given.
   class CommandInputs;
@@ -198,8 +245,28 @@ class JointHardware : public component::Component {
                                                   "nothing that moved was lost",
                                                   component::in_own_thread,
                                                   component::in_any_state};
-  bool is_exact_ = true;     ///< not the attribute, which tools may set
-  bool is_doubted_ = false;  ///< until the operator has looked
+  component::Operation<bool(control::DrivePermit, double)> begin_homing_{
+      this,
+      "beginHoming",
+      component::serve<&JointHardware::begin_homing>,
+      "the joint looks for its position, with this effort of the motor at most",
+      component::args("permit", "most_effort"),
+      component::in_own_thread};
+  component::Operation<bool(control::DrivePermit)> find_position_{
+      this,
+      "positionFound",
+      component::serve<&JointHardware::find_position>,
+      "the joint has found its position, and lost no sample meanwhile",
+      component::args("permit"),
+      component::in_own_thread};
+  component::Operation<double()> since_index_{
+      this, "sinceIndex", component::serve<&JointHardware::index_passed>,
+      "by how much the motor's axis turned since its index mark; nan: it passed none",
+      component::in_own_thread};
+  bool is_exact_ = true;        ///< not the attribute, which tools may set
+  bool is_doubted_ = false;     ///< until the operator has looked
+  bool homes_exactly_ = false;  ///< no sample was lost since it looks for its position
+  bool is_bounded_ = false;     ///< its drive's effort
   component::Attribute<bool> position_exact_{
       this, "position_exact", true,
       "nothing that moved was lost, and it does not begin with a position that nobody confirmed"};
@@ -221,6 +288,8 @@ class JointHardware : public component::Component {
       component::args("permit"),
       component::in_own_thread};
 
+  component::Attribute<bool> switched_on_{
+      this, "switched_on", false, "its actuator was told to be on, and has not taken to be off"};
   control::DrivePermit permit_;
   int refused_ = 0;  ///< commands in a row, while it is on
   Ending ending_{*this};

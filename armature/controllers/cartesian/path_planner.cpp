@@ -9,7 +9,7 @@
 
 #include "armature/base/as_reason.hpp"
 #include "armature/base/quoted.hpp"
-#include "armature/component/check_of_threads.hpp"
+#include "armature/component/checking/check_of_threads.hpp"
 #include "armature/controllers/cartesian/pose_arguments.hpp"
 #include "armature/rt/guard.hpp"
 

@@ -68,17 +68,19 @@ Outcome Joint::on_start() {
     return component::refused("the event Arm comes from '" + arming_->name() +
                               "' in another process: let an Arming in its own process arm it");
   }
-  if (settings_->homing_required && !is_homed_.bound()) {
+  if (settings_->homing_required && homes_by_hardware() && !hardware_.tells_of_home()) {
     return component::refused("HomingRequired is set, and '" + peer_name_.get() +
-                              "' does not home by itself: leave it out");
+                              "' does not home by itself: set HomingMethod, or leave it out");
   }
   started_ = time();
   intervals_.begin(period_.duration());
   measured_since_start_ = false;
+  homed_now_ = homing_failed_ = false;
+  homed_.assign(false);
   if (absolute_) absolute_->reset();
   switch_off();
   kept_.note_start();
-  if (kept_.is_doubtful() && !succeeds(doubt_position_)) {
+  if (kept_.is_doubtful() && !hardware_.doubt_position()) {
     return component::refused(
         "autosave needs hardware that asks the operator for position_confirmed, and '" +
         peer_name_.get() + "' does not: leave out autosave");
@@ -96,7 +98,7 @@ void Joint::on_stop() {
   kept_.note_stop({.position = measured_.position,
                    .at_rest = at_rest,
                    .braked = braked,
-                   .exact = succeeds(position_exact_)});
+                   .exact = hardware_.is_exact()});
 }
 
 Outcome Joint::set_up() {
@@ -124,6 +126,7 @@ Outcome Joint::set_up() {
   if (!watch) return component::refused(watch.error());
   auto absolute = control::AbsolutePosition::make(absolute_sensor());
   if (!absolute) return component::refused(absolute.error());
+  if (Outcome outcome = own_.set_up(period_.duration()); !outcome) return outcome;
   limiter_ = limiter.value();
   absolute_ = absolute.value();
   following_ = control::FollowingWatch(
@@ -209,13 +212,13 @@ std::vector<DrivenJoint> Joint::joints_behind(const component::InputPortBase* /*
 // --- measuring -------------------------------------------------------------------------------
 
 void Joint::on_sample() {
-  if (is_in_time() && is_homing_watched()) succeeds(read_hardware_);
+  if (is_in_time() && is_homing_watched()) hardware_.read();
 }
 
 /// Without Sampler, whoever calls this samples it.
 double Joint::sensor_read() {
   displacement_read_ = std::numeric_limits<double>::quiet_NaN();
-  if (sampler_ || is_in_time()) succeeds(read_hardware_);
+  if (sampler_ || (is_in_time() && is_homing_watched())) hardware_.read();
   return displacement_read_;
 }
 
@@ -242,7 +245,8 @@ void Joint::on_position(double of_motor) {
   }
   const auto reading = absolute_->step(of_motor, base::to_seconds(time() - measured_at_));
   if (!reading.jumped) return moved(reading.displacement, reading.position);
-  if (phase_ == Phase::kHoming && !homing_jumped_) return homing_jumped(reading.position);
+  const bool may_jump = phase_ == Phase::kHoming && homes_by_hardware() && !homing_jumped_;
+  if (may_jump) return homing_jumped(reading.position);
   switch_off();
   component::Reason why("PositionSensor says that it moved by ");
   append_number(why, reading.displacement)
@@ -263,8 +267,12 @@ void Joint::moved(double displacement, double to) {
   measured_at_ = time();
   measured_since_start_ = true;
   displacement_read_ = displacement;
+  const bool homes_by_itself = phase_ == Phase::kHoming && !homes_by_hardware();
+  if (homes_by_itself) follow_own_homing(displacement);  // which may say where it is
   displacement_.write(displacement);
   position_.write(measured_.position);
+  if (homed_now_) tell_homed();
+  if (homes_by_itself) return;
   if (off_at_rest_) cut_power_at_rest();
   if (phase_ == Phase::kDisarmed) {
     note_sinking(displacement);

@@ -21,9 +21,12 @@
 #include "armature/controllers/base/sample_watch.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
 #include "armature/controllers/joint/command_output.hpp"
+#include "armature/controllers/joint/homing_settings.hpp"
 #include "armature/controllers/joint/joint_model.hpp"
+#include "armature/controllers/joint/joint_peer.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
 #include "armature/controllers/joint/kept_position.hpp"
+#include "armature/controllers/joint/own_homing.hpp"
 
 namespace armature::controllers {
 
@@ -59,6 +62,11 @@ namespace armature::controllers {
 /// is for. At its end, however it ends, the joint is disarmed, so that generators begin at the new
 /// position when it is armed. With HomingRequired it is not armed before.
 ///
+/// With another HomingMethod than `drive` the joint homes by itself (OwnHoming): it holds itself
+/// and lets go as when it is armed, and moves by a limiter of its own. Where home is it takes over
+/// at rest, once its brake is applied. From the moment at which it begins until it has found home
+/// nobody knows where it is: it is not armed then, unless the operator says where it is.
+///
 /// Between Rest and Motion, events of Arming, the armed joint is to stand: beyond what the
 /// properties Holding... say it is braked, and faults (control::HoldingWatch).
 ///
@@ -93,7 +101,7 @@ class Joint : public component::Component,
     kTakingLoad,  ///< the brake is closed, or the motor off without one
     kLetGo,       ///< and watched
     kArmed,
-    kHoming,  ///< its hardware moves by itself, and nothing else commands it
+    kHoming,  ///< it or its hardware moves by itself, and nothing else commands it
   };
 
   component::Outcome on_configure() override;
@@ -114,7 +122,10 @@ class Joint : public component::Component,
   void on_displacement(double of_motor);
   void on_position(double of_motor);
   void moved(double displacement, double to);
-  void on_index(bool closed) { index_.write(closed); }
+  void on_index(bool closed) {
+    index_closed_ = closed;
+    index_.write(closed);
+  }
   double sensor_read();
   bool measured_lately() const;
 
@@ -137,13 +148,29 @@ class Joint : public component::Component,
 
   // Homing: joint_homing.cpp.
   component::Outcome begin_homing();
+  component::Outcome may_home() const;
+  component::Outcome begin_by_hardware();
+  component::Outcome begin_by_itself();
+  component::Outcome be_here();
+  bool homes_by_hardware() const { return homing_.method() == HomingMethod::kDrive; }
+  bool begin_search();
+  void follow_own_homing(double displacement);
+  void let_go_to_home();
+  bool switch_on_to_home();
+  void look_for_home();
+  void write_homing();
+  void be_homed_by_itself();
+  void be_at(double position);
   void cancel_homing();
   void follow_homing(double displacement);
   void homing_jumped(double position);
   bool is_homing_watched();
   void be_homed();
+  void tell_homed();
   void fail_homing(const component::Reason& why, bool is_fault);
-  bool is_homed_enough() { return !settings_->homing_required || succeeds(is_homed_); }
+  bool is_homed_enough() {
+    return !settings_->homing_required || homed_.get() || hardware_.is_homed();
+  }
 
   // Standing: joint_arming.cpp.
   void watch();
@@ -161,16 +188,10 @@ class Joint : public component::Component,
   bool cut_power();
   void cut_power_at_rest();
   bool motor_on(control::DrivePermit permit) {
-    return limiter_->armed() && succeeds(actuator_on_, permit);
+    return limiter_->armed() && hardware_.actuator_on(permit);
   }
   bool brake_apply() { return disarm(); }
   bool brake_release(control::DrivePermit permit);
-  template <typename... Arguments>
-  static bool succeeds(component::OperationCaller<bool(Arguments...)>& call,
-                       Arguments... arguments) {
-    const component::CallResult<bool> answer = call(arguments...);
-    return answer.status == component::CallStatus::kDone && answer.value;
-  }
 
   const JointCommand way_;  ///< its drive is commanded in
   const JointCommandNames& names_;
@@ -184,39 +205,13 @@ class Joint : public component::Component,
   JointProperties settings_{this, way_, units_};
   SamplingPeriod period_{this};
 
+  HomingProperties homing_{this, way_, units_, settings_};
+  OwnHoming own_{way_, homing_, settings_};
+
   JointModel model_{this, settings_, way_};
   KeptPosition kept_{this, settings_};
 
-  component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
-                                                    component::from(peer_name_)};
-  component::OperationCaller<bool()> is_as_told_{
-      this, "isAsTold", "actuator and brake have done what they were told last",
-      component::from(peer_name_), component::optional};
-  component::OperationCaller<bool()> position_known_{
-      this, "positionKnown", "nothing that moved was lost", component::from(peer_name_),
-      component::optional};
-  component::OperationCaller<bool()> position_exact_{this, "positionExact", "no sample was lost",
-                                                     component::from(peer_name_),
-                                                     component::optional};
-  component::OperationCaller<bool(control::DrivePermit)> home_by_itself_{
-      this, "homeByItself", "has it home", component::from(peer_name_), component::optional};
-  component::OperationCaller<int()> homing_stage_{this, "homingStage", "how far it is",
-                                                  component::from(peer_name_), component::optional};
-  component::OperationCaller<bool()> is_homed_{this, "isHomed", "its position is that of home",
-                                               component::from(peer_name_), component::optional};
-  component::OperationCaller<bool()> doubt_position_{
-      this, "doubtPosition", "has it ask for position_confirmed", component::from(peer_name_),
-      component::optional};
-  component::OperationCaller<bool(control::DrivePermit)> actuator_on_{
-      this, "actuatorOn", "switches the actuator on", component::from(peer_name_)};
-  component::OperationCaller<bool()> actuator_off_{this, "actuatorOff", "switches the actuator off",
-                                                   component::from(peer_name_)};
-  component::OperationCaller<bool()> apply_brake_{this, "brakeApply", "applies the brake",
-                                                  component::from(peer_name_),
-                                                  component::only_if(brake_)};
-  component::OperationCaller<bool(control::DrivePermit)> release_brake_{
-      this, "brakeRelease", "releases the brake", component::from(peer_name_),
-      component::only_if(brake_)};
+  JointPeer hardware_{this, peer_name_, brake_};
   component::EventHandler<> sample_handler_{
       this,
       "Sample",
@@ -331,10 +326,11 @@ class Joint : public component::Component,
       this,
       "home",
       component::serve<&Joint::begin_homing>,
-      "has the disarmed joint's hardware move by itself to find its position; disarmed then",
+      "the disarmed joint, or its hardware, moves by itself to find its position; disarmed then",
       component::by_operator,
       component::cancelled_by<&Joint::cancel_homing>};
 
+  component::Attribute<bool> homed_{this, "homed", false, "it has homed by itself since its start"};
   component::Attribute<double> arming_moved_{
       this, "arming_moved",
       0.0,  "by how much it moved when it was armed last, or failed to",
@@ -346,7 +342,7 @@ class Joint : public component::Component,
   component::Attribute<int> clipped_{this, "clipped", 0,
                                      "commands since the configuration that the limiter changed"};
 
-  Changes changes_{settings_, period_.property()};
+  Changes changes_{settings_, homing_, period_.property()};
   const component::Component* arming_ = nullptr;  ///< who lets it move, and could take that back
   std::optional<control::JointLimiter> limiter_;
   std::optional<control::ArmingSequence> sequence_;
@@ -368,8 +364,12 @@ class Joint : public component::Component,
   bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
   base::Time disarmed_at_{};
   base::Time homing_since_{};
-  double homing_way_ = 0.0;         ///< by which the hardware has moved it, with its sign
-  bool homing_jumped_ = false;      ///< its position became new
+  double homing_way_ = 0.0;      ///< by which it has moved, with its sign
+  bool homing_jumped_ = false;   ///< its position became new
+  bool looks_for_home_ = false;  ///< by itself, and was let go
+  bool homing_failed_ = false;   ///< nobody knows where it is
+  bool homed_now_ = false;       ///< and its command ends with the next sample
+  bool index_closed_ = false;
   double sensor_ratio_ = 1.0;       ///< motion of the joint for one of the motor
   double effort_ratio_ = 1.0;       ///< effort of the motor for one of the joint
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan

@@ -32,13 +32,19 @@ void Joint::on_arm() {
   if (!is_homed_enough()) {
     return fail_to_arm("it is not homed, and HomingRequired is set: call its command home");
   }
-  if (position_known_.bound() && !succeeds(position_known_)) {
+  if (!hardware_.knows_position()) {
     if (kept_.is_doubtful()) return fail_to_arm(kept_.question(told(measured_.position)));
+    if (homing_failed_) {
+      return fail_to_arm(
+          "it has begun to home, and has not found home: call its command home, or look whether it "
+          "is where its Position says, then set position_confirmed of its hardware");
+    }
     return fail_to_arm(
         "a sample of it was lost for good: look whether it is where its Position says, then set "
         "position_confirmed of its hardware");
   }
   kept_.be_sure();
+  homing_failed_ = false;
   if (!measured_lately()) {
     return fail_to_arm("it was not measured in this sampling period");
   }
@@ -50,7 +56,7 @@ void Joint::on_arm() {
   passed_ = false;
   phase_ = Phase::kTakingLoad;
   sequence_->begin(measured_.position, time());
-  if (brake_ && !succeeds(actuator_on_, limiter_->permit())) {
+  if (brake_ && !hardware_.actuator_on(limiter_->permit())) {
     fail_to_arm("its hardware does not switch on");
   }
 }
@@ -60,12 +66,11 @@ void Joint::go_on_arming() {
   const bool waits_for_motor = !brake_ && !sequence_->let_go();
   const double effort = effort_of(waits_for_motor ? commanded_ : sent_);
   const bool affordable = std::abs(effort) < max_effort();
-  const auto next =
-      sequence_->step({.position = measured_.position,
-                       .effort = effort,
-                       .caught_up = affordable && (passed_ || waits_for_motor),
-                       .driven = waits_for_motor || !is_as_told_.bound() || succeeds(is_as_told_)},
-                      time());
+  const auto next = sequence_->step({.position = measured_.position,
+                                     .effort = effort,
+                                     .caught_up = affordable && (passed_ || waits_for_motor),
+                                     .driven = waits_for_motor || hardware_.is_as_told()},
+                                    time());
   arming_moved_.assign(sequence_->moved());
   switch (next) {
     case ArmingSequence::Next::kWait:
@@ -91,10 +96,10 @@ void Joint::let_go() {
   bool done = false;
   if (brake_) {
     limiter_->end_rate_limit();
-    done = succeeds(release_brake_, limiter_->permit());
+    done = hardware_.release_brake(limiter_->permit());
   } else if (limiter_->arm(measured_, effort_of(commanded_))) {
     apply(commanded_);
-    done = phase_ == Phase::kLetGo && succeeds(actuator_on_, limiter_->permit());
+    done = phase_ == Phase::kLetGo && hardware_.actuator_on(limiter_->permit());
   }
   if (!done) fail_to_arm("its hardware does not switch on");
 }
@@ -238,9 +243,9 @@ void Joint::note_sinking(double displacement) {
 /// Hardware that moves by itself does not brake because its effort is 0.
 /// @return the brake is applied
 bool Joint::disarm() {
-  if (phase_ == Phase::kHoming) return switch_off();
+  if (phase_ == Phase::kHoming && homes_by_hardware()) return switch_off();
   const bool turns = std::abs(measured_.velocity) > kRest;
-  if (limiter_->armed() && measured_lately() && turns) {
+  if ((limiter_->armed() || own_.armed()) && measured_lately() && turns) {
     off_at_rest_ = true;
     disarmed_at_ = time();
   }
@@ -253,16 +258,17 @@ bool Joint::disarm() {
 bool Joint::brake_at_once() {
   const bool was_homing = phase_ == Phase::kHoming;
   const bool was_armed = phase_ == Phase::kArmed;
-  const bool was_driven = limiter_->armed();
+  const bool was_driven = limiter_->armed() || own_.armed();
   if (phase_ != Phase::kDisarmed) {
     sunk_.assign(0.0);
     told_of_sinking_ = false;
   }
   phase_ = Phase::kDisarmed;
   limiter_->disarm();
-  if (was_homing && home_.active()) home_.fail("disarmed, so it does not home");
+  own_.disarm();
+  if (was_homing && !homed_now_ && home_.active()) home_.fail("disarmed, so it does not home");
   stand_still();
-  const bool braked = !brake_ || succeeds(apply_brake_);
+  const bool braked = !brake_ || hardware_.apply_brake();
   armed_.write(false);
   if (was_armed) log_info("disarmed");
   if (was_driven && !braked) log_error("the hardware did not confirm that it brakes");
@@ -277,7 +283,7 @@ bool Joint::switch_off() {
 
 bool Joint::cut_power() {
   off_at_rest_ = false;
-  return succeeds(actuator_off_);
+  return hardware_.actuator_off();
 }
 
 void Joint::cut_power_at_rest() {
@@ -287,7 +293,7 @@ void Joint::cut_power_at_rest() {
 
 bool Joint::brake_release(control::DrivePermit permit) {
   const bool held = phase_ == Phase::kLetGo || phase_ == Phase::kArmed;
-  return held && succeeds(release_brake_, permit);
+  return held && hardware_.release_brake(permit);
 }
 
 }  // namespace armature::controllers

@@ -43,6 +43,16 @@ const component::InputPortBase* input_of(const component::Component& joint, std:
 
 }  // namespace
 
+const JointHardware* hardware_of(const component::Component& joint, const component::Check& check) {
+  for (const std::string_view name : {"DisplacementSensor", "PositionSensor"}) {
+    for (const component::OutputPortBase* const writer : check.writers_of(*input_of(joint, name))) {
+      const auto* const hardware = dynamic_cast<const JointHardware*>(&writer->owner());
+      if (hardware != nullptr) return hardware;
+    }
+  }
+  return nullptr;
+}
+
 JointModel::JointModel(component::Component* owner, JointProperties& settings, JointCommand command)
     : Checked(owner),
       owner_(*owner),
@@ -87,7 +97,7 @@ void JointModel::check(component::Check& check) const {
         "RobotJoint needs exactly one component of the model Robot, found none or several");
   auto found = find(*model);
   if (!found) return check.error(found.error());
-  if (const JointHardware* const told = hardware(check)) {
+  if (const JointHardware* const told = hardware_of(owner_, check)) {
     found.value().sensor_turns = told->sensor_turns();
     found.value().of_shaft = told->tells_of_shaft();
   }
@@ -126,18 +136,6 @@ void JointModel::check_sensor(component::Check& check) const {
     check.error("neither DisplacementSensor nor PositionSensor has a writer",
                 "connect the one that its hardware has");
   }
-}
-
-/// Whose sensor it is.
-const JointHardware* JointModel::hardware(const component::Check& check) const {
-  for (const std::string_view name : {"DisplacementSensor", "PositionSensor"}) {
-    for (const component::OutputPortBase* const writer :
-         check.writers_of(*input_of(owner_, name))) {
-      const auto* const hardware = dynamic_cast<const JointHardware*>(&writer->owner());
-      if (hardware != nullptr) return hardware;
-    }
-  }
-  return nullptr;
 }
 
 std::optional<DrivenJoint> JointModel::driven(const component::Check& check) const {

@@ -12,6 +12,10 @@
 
 namespace armature::controllers {
 
+/// Whose sensor tells a Joint how it moves; nullptr: none that says what it is.
+/// @thread configuration only
+const JointHardware* hardware_of(const component::Component& joint, const component::Check& check);
+
 /// What a Joint is in its robot: checks its limits and its gear against what a Robot of the
 /// deployment says of links and drives, and tells whoever controls the joint what it drives.
 class JointModel final : public component::Checked, public component::PropertyFollower {
@@ -44,7 +48,6 @@ class JointModel final : public component::Checked, public component::PropertyFo
   void check_sensor(component::Check& check) const;
   const DescribesRobot* robot(const component::Check& check) const;
   base::Result<Known> find(const DescribesRobot& robot) const;
-  const JointHardware* hardware(const component::Check& check) const;
   std::string objection(const Known& known, const JointSettings& limits) const;
   static std::string objection_to_motion(const control::JointLimits& described,
                                          const JointSettings& limits, const std::string& unit);

@@ -48,7 +48,7 @@ JointProperties::JointProperties(component::Component* owner, JointCommand comma
                  "a joint that moves more when it is armed is braked again, and not armed", "",
                  range(1e-6, 1.0), unit_of(units.position())),
           member(&JointSettings::homing_required, "HomingRequired",
-                 "it is not armed before its hardware has homed"),
+                 "it is not armed before it has homed since its start"),
           member(&JointSettings::homing_time, "HomingTime", "the longest that homing may take", "s",
                  range(0.01, 3600.0)),
           member(&JointSettings::holding_motion, "HoldingMotion",

@@ -32,7 +32,7 @@ struct JointSettings {
   double arming_time = 1.0;
   double arming_motion = 0.01;
 
-  // Of homing by its hardware.
+  // Of homing.
   bool homing_required = false;
   double homing_time = 60.0;
 
@@ -56,18 +56,34 @@ class JointUnits {
             owner, {&axis_.position()},
             [this, command] { return unit_for(names_of(command).unit, axis_.position().get()); }),
         gear_(owner, {&axis_.position()},
-              [this] { return axis_.position().get() == "m" ? "m/rad" : ""; }) {}
+              [this] { return axis_.position().get() == "m" ? "m/rad" : ""; }),
+        homing_effort_(owner, {&axis_.position()},
+                       [this, command] {
+                         return unit_for(is_effort(command) ? names_of(command).unit : "Nm",
+                                         axis_.position().get());
+                       }),
+        stiffness_(owner, {&axis_.position()},
+                   [this] { return gain_unit(homing_effort_.get(), axis_.position().get()); }),
+        damping_(owner, {&axis_.position()},
+                 [this] { return gain_unit(homing_effort_.get(), axis_.position().get(), "s"); }) {}
 
   const AxisUnit& position() const { return axis_.position(); }
   const DerivedUnit& velocity() const { return axis_.velocity(); }
   const DerivedUnit& acceleration() const { return axis_.acceleration(); }
   const DerivedUnit& command() const { return command_; }
   const DerivedUnit& gear() const { return gear_; }
+  /// Of what homes it: as it is commanded, or of a drive that follows by itself at the joint.
+  const DerivedUnit& homing_effort() const { return homing_effort_; }
+  const DerivedUnit& stiffness() const { return stiffness_; }
+  const DerivedUnit& damping() const { return damping_; }
 
  private:
   AxisUnits axis_;
   DerivedUnit command_;
   DerivedUnit gear_;
+  DerivedUnit homing_effort_;
+  DerivedUnit stiffness_;
+  DerivedUnit damping_;
 };
 
 /// They are the properties of a Joint.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "armature/component/check.hpp"
-#include "armature/component/check_of_threads.hpp"
+#include "armature/component/checking/check_of_threads.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/check.hpp"
-#include "armature/component/check_of_threads.hpp"
+#include "armature/component/checking/check_of_threads.hpp"
 #include "armature/component/face.hpp"
 #include "armature/exec/internal/test_components.hpp"
 

@@ -18,6 +18,8 @@ class AicOfAJoint : public controllers::JointHardware {
  public:
   using JointHardware::JointHardware;
 
+  HomingSigns homing_signs() const override { return {.home_switch = true}; }
+
  protected:
   struct Wiring {
     bool motor_inverted = false;     ///< a positive voltage is sent as a negative one
