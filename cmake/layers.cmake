@@ -29,6 +29,7 @@ set(ARMATURE_LAYERS
     "bundle: base platform document orocos deploy idl"
     "generate: base component types runner exec document deploy platform"
     "report: base platform control component exec record"
+    "replay: base platform types component exec record runner inspect deploy"
     "remote: base idl ride document inspect exec component rt types platform"
     "foxglove: base platform control inspect remote ride websocket"
     "studio: base platform rt ride websocket remote document deploy inspect edit foxglove"
@@ -42,6 +43,6 @@ set(ARMATURE_LAYERS
     "cia402_components: base can canopen cia402 component controllers guardian platform rt types"
     "robots: base platform rt types controllers component can control vision guardian sim"
     "ros2: base component control controllers platform rt types vision"
-    "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate foxglove studio report lua remote browser controllers general sim"
+    "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate foxglove studio report replay lua remote browser controllers general sim"
     "python: base platform types rt control component exec record runner document inspect deploy ride remote tls websocket cli"
-    "testing: base platform types rt guard control component can guardian ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate foxglove studio report lua remote browser controllers general sim")
+    "testing: base platform types rt guard control component can guardian ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate foxglove studio report replay lua remote browser controllers general sim")

@@ -12,9 +12,11 @@
 namespace armature::cli {
 
 using runner::ExitCode;
+using runner::kDiffers;
 using runner::kDone;
 using runner::kFailed;
 using runner::kNoRealtime;
+using runner::kNotAllCompared;
 using runner::kStoppedByReaction;
 using runner::kWrongUse;
 

@@ -13,10 +13,12 @@ namespace armature::cli {
 /// Loads and checks the deployment that a command was given.
 /// @param network  for what lives in other processes, or is open to them
 /// @param read     of its files; empty: from disk
+/// @param seen     is told of each file; may be empty
 inline deploy::Deployment load(const LoadArguments& arguments, NetworkOnDemand& network,
-                               deploy::FileReader read = {}) {
+                               deploy::FileReader read = {}, deploy::FileSeen seen = {}) {
   deploy::DeploymentOptions options;
   options.document.read = std::move(read);
+  options.document.seen = std::move(seen);
   options.make_placeholder = network.placeholders();
   options.make_inlets = network.inlets();
   options.read_interface = remote::read_interface;

@@ -11,12 +11,12 @@ namespace {
 /// Reads, checks and edits deployments and descriptions of robots, and writes reports. No real-time
 /// thread ever runs any of it, and it comes back when the run has ended. The program itself stays:
 /// the C++ library may use functions of `std::string` that were compiled into it.
-constexpr std::string_view kNeverRealTime[] = {"libarmature_deploy.so", "libarmature_document.so",
-                                               "libarmature_orocos.so", "libarmature_analysis.so",
-                                               "libarmature_report.so", "libarmature_edit.so",
-                                               "libyaml-cpp.so",        "libyaml-0.so",
-                                               "libpugixml.so",         "liburdfdom_model.so",
-                                               "libtinyxml.so",         "libconsole_bridge.so"};
+constexpr std::string_view kNeverRealTime[] = {
+    "libarmature_deploy.so",   "libarmature_document.so", "libarmature_orocos.so",
+    "libarmature_analysis.so", "libarmature_report.so",   "libarmature_edit.so",
+    "libarmature_replay.so",   "libyaml-cpp.so",          "libyaml-0.so",
+    "libpugixml.so",           "liburdfdom_model.so",     "libtinyxml.so",
+    "libconsole_bridge.so"};
 /// Has something done in the threads of components, where there is an operator, a script or another
 /// process.
 constexpr std::string_view kOfTools[] = {"libarmature_inspect.so", "libarmature_lua.so",

@@ -18,6 +18,7 @@
 
 #include "armature/analysis/schedule.hpp"
 #include "armature/cli/companions.hpp"
+#include "armature/cli/experiment.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/cli/network.hpp"
 #include "armature/cli/release_code.hpp"
@@ -147,11 +148,11 @@ void tell_recorders(const exec::Blueprint& blueprint, const RunArguments& argume
   }
 }
 
-/// @param companions, network, service, facts  outlive the application
+/// @param companions, network, service, experiment, facts  outlive the application
 exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArguments& arguments,
                                     const Companions& companions, NetworkOnDemand& network,
                                     platform::ServiceManager& service, const Console& console,
-                                    report::RunFacts& facts) {
+                                    ExperimentRecord& experiment, report::RunFacts& facts) {
   exec::ApplicationOptions options = std::move(deployment.options);
   runner::apply(arguments, options);
   options.log = [&](const rt::LogRecord& record) {
@@ -163,6 +164,9 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
     options.timeline.sink = [&](const exec::TimelineSlice& slice) {
       companions.timeline->add(slice);
     };
+  }
+  if (experiment.keeps_acts()) {
+    options.acts = [&experiment](const exec::Act& act) { experiment.add(act); };
   }
   const bool networked = network.wanted(deployment.document, arguments);
   const bool scripted = companions.script != nullptr;
@@ -222,6 +226,7 @@ struct Aboard {
   const RunArguments& arguments;
   const Companions& companions;
   NetworkOnDemand& network;
+  ExperimentRecord& experiment;
   base::Diagnostics& mistakes;  ///< of scripts
   Console& console;
 };
@@ -230,7 +235,7 @@ struct Aboard {
 /// @param left  what went wrong on the way to the stop
 int conclude(exec::Application& application, const document::Document& document,
              const Aboard& aboard, const base::Diagnostics& left, report::RunFacts& facts) {
-  const auto& [arguments, companions, network, mistakes, console] = aboard;
+  const auto& [arguments, companions, network, experiment, mistakes, console] = aboard;
   console.show(mistakes);
   runner::tell_casualties(application, console);
   base::Diagnostics ended = application.stop();
@@ -243,6 +248,7 @@ int conclude(exec::Application& application, const document::Document& document,
   if (!mistakes.ok() || !left.ok() || !ended.ok() || !passed_guard(arguments, console))
     code = kFailed;
   if (!complete(companions.timeline.get(), console)) code = kFailed;
+  if (!experiment.end(console)) code = kFailed;
   if (!arguments.write_times.empty() &&
       !write_times_file(arguments.write_times, application, console)) {
     code = kFailed;
@@ -272,7 +278,7 @@ int start_keeping(exec::Application& application, const document::Document& docu
 
 /// From the start of a deployment that passed its check to the end of its run.
 int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
-  const auto& [arguments, companions, network, mistakes, console] = aboard;
+  const auto& [arguments, companions, network, experiment, mistakes, console] = aboard;
   // In simulated time nothing moves while somebody is waited for.
   std::optional<platform::Printer> printer;
   if (!arguments.simulated) printer.emplace();
@@ -280,11 +286,12 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   tell_recorders(deployment.blueprint, arguments);
   report::RunFacts facts = facts_of(arguments);
   if (!arguments.simulated) console.set_begin(facts.begin);
+  if (!experiment.begin(deployment, arguments, console)) return kFailed;
   const platform::StopSignal stop;
   platform::ServiceManager service;
   exec::Application application(
       std::move(deployment.blueprint),
-      options_of(deployment, arguments, companions, network, service, console, facts));
+      options_of(deployment, arguments, companions, network, service, console, experiment, facts));
   const runner::Burial burial(application, console);
   {
     // What peers ask for may be an E-stop.
@@ -324,7 +331,8 @@ bool has_prompt(const deploy::Deployment& deployment) {
 int run(const RunArguments& arguments, Console& console) {
   if (!stand_behind_guard(arguments, console)) return kFailed;
   NetworkOnDemand network(console, arguments.policy, arguments.tokens);
-  deploy::Deployment deployment = load(arguments.load, network);
+  ExperimentRecord experiment;
+  deploy::Deployment deployment = load(arguments.load, network, {}, experiment.seen());
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
 
@@ -337,7 +345,7 @@ int run(const RunArguments& arguments, Console& console) {
   const Companions companions = make_companions(arguments, has_prompt(deployment), mistakes);
   console.show(mistakes);
   if (!mistakes.ok()) return kFailed;
-  return run_checked(deployment, {arguments, companions, network, mistakes, console});
+  return run_checked(deployment, {arguments, companions, network, experiment, mistakes, console});
 }
 
 }  // namespace armature::cli

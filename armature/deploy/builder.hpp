@@ -34,6 +34,8 @@ struct BuildOptions {
   MakePlaceholder make_placeholder{};  ///< none: components of other processes are refused
   MakeInlets make_inlets{};            ///< none: inputs for other processes are refused
   ReadInterface read_interface{};      ///< none: components of other processes are refused
+  /// Is told each property file that was read.
+  FileSeen seen{};
 };
 
 /// Makes the document's components from the models of `registry`, sets their properties, from

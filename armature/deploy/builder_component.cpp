@@ -166,6 +166,7 @@ void ComponentBuilder::add(const Component& written,
   }
   entry.autoconfigure = written.autoconf;
   entry.autostart = written.autostart;
+  entry.shadow = written.shadow;
   add_peers(written, entry);
   blueprint.components.push_back(std::move(entry));
 }
@@ -368,7 +369,10 @@ const std::vector<Property>* ComponentBuilder::read(const PropertyFile& file, bo
   auto& content = files_[path];
   std::error_code ignored;
   const bool from_disk = options_.read == nullptr;
-  if (from_disk && may_be_missing && !std::filesystem::exists(path, ignored)) {
+  const auto is_there = [&] {
+    return from_disk ? std::filesystem::exists(path, ignored) : options_.read(path).ok();
+  };
+  if (may_be_missing && !is_there()) {
     diagnostics_.note(file.where, "property file " + path_in_quotes(path) +
                                       " does not exist yet; it is written at stop");
     return nullptr;
@@ -379,6 +383,7 @@ const std::vector<Property>* ComponentBuilder::read(const PropertyFile& file, bo
     diagnostics_.error(file.where, text.error());
     return nullptr;
   }
+  if (options_.seen) options_.seen(path, text.value());
   content =
       std::make_unique<std::vector<Property>>(orocos::parse_cpf(text.value(), path, diagnostics_));
   return content.get();

@@ -95,6 +95,20 @@ void refuse_grants_on_hardware(Deployment& deployment) {
   }
 }
 
+/// What looks on must not be able to end a run: who drives would stop because of it.
+void refuse_shadows_that_stop_all(Deployment& deployment) {
+  if (deployment.options.on_fault != exec::OnFault::kStopAll) return;
+  for (const exec::ComponentEntry& entry : deployment.blueprint.components) {
+    if (!entry.shadow) continue;
+    deployment.diagnostics.error(entry.where,
+                                 "the shadow '" + entry.component->name() +
+                                     "' would stop everything if it faulted, since on_fault is "
+                                     "stop_all",
+                                 "say on_fault: stop_dependents, or remove the shadow");
+    return;
+  }
+}
+
 /// Warnings that the deployment means. Errors stay, and so do warnings about what moves, which have
 /// no name.
 void accept_warnings(const Document& document, base::Diagnostics& diagnostics) {
@@ -126,7 +140,7 @@ void check_all(Deployment& deployment, const DeploymentOptions& options) {
   deployment.blueprint =
       build_blueprint(document, deployment.models,
                       {options.document.read, !all_loaded, options.make_placeholder,
-                       options.make_inlets, options.read_interface},
+                       options.make_inlets, options.read_interface, options.document.seen},
                       diagnostics);
   take_kept(document, deployment.blueprint, diagnostics);
   deployment.plan = exec::make_plan(deployment.blueprint, diagnostics);
@@ -137,6 +151,7 @@ void check_all(Deployment& deployment, const DeploymentOptions& options) {
   check_operator_inputs(document, deployment.blueprint, deployment.plan, diagnostics);
   const analysis::ExecutionTimes times = read_times(options.times_file, diagnostics);
   refuse_grants_on_hardware(deployment);
+  refuse_shadows_that_stop_all(deployment);
   if (!diagnostics.ok()) return;
   warn_of_idle_components(deployment, diagnostics);
   check_threads(deployment, diagnostics);

@@ -28,7 +28,10 @@ class Sources {
 
   Value load(const std::string& path, const base::Location& from) {
     const base::Result<std::string> text = read(path);
-    if (text.ok()) return parse(text.value(), path);
+    if (text.ok()) {
+      if (options_.seen) options_.seen(path, text.value());
+      return parse(text.value(), path);
+    }
     diagnostics_.error(from, text.error());
     return make_map({path, 0, 0});
   }

@@ -17,9 +17,14 @@ namespace armature::deploy {
 /// The content of a file, or why it cannot be read.
 using FileReader = std::function<base::Result<std::string>(const std::string& path)>;
 
+/// Is told of a file that was read.
+using FileSeen = std::function<void(const std::string& path, const std::string& text)>;
+
 /// What reading a document needs beside its file.
 struct LoadOptions {
   FileReader read;  ///< empty: from disk
+  /// Is told each file that was read, property files included.
+  FileSeen seen;
   /// As on the command line: `joints=7` sets a parameter, `Joint1.GearRatio=0.02` a property,
   /// `Joint1.activity.periodic=5 ms` an activity; values are YAML.
   std::vector<std::string> overrides;

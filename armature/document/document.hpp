@@ -110,6 +110,7 @@ struct Component {
   bool autoconf = true;
   bool autostart = true;
   bool autosave = false;  ///< properties are written to the last property file at stop
+  bool shadow = false;    ///< looks on, beside those who drive, and moves nothing
   base::Location where;   ///< of the name
   base::Location model_where;
 };

@@ -253,7 +253,8 @@ void read_properties(const Value& value, const ValueReader& reader, Component& c
 void read_flags(Fields& fields, const ValueReader& reader, Component& component) {
   const std::pair<const char*, bool*> flags[] = {{"autoconf", &component.autoconf},
                                                  {"autostart", &component.autostart},
-                                                 {"autosave", &component.autosave}};
+                                                 {"autosave", &component.autosave},
+                                                 {"shadow", &component.shadow}};
   for (const auto& [key, flag] : flags) {
     if (const Value* value = fields.take(key)) assign(reader.flag(*value, key), *flag);
   }

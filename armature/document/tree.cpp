@@ -126,6 +126,7 @@ Value component_tree(const Component& component) {
   if (!component.autoconf) add(map, "autoconf", "false");
   if (!component.autostart) add(map, "autostart", "false");
   if (component.autosave) add(map, "autosave", "true");
+  if (component.shadow) add(map, "shadow", "true");
   return map;
 }
 

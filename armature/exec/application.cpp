@@ -13,6 +13,7 @@
 #include "armature/exec/internal/application/executor.hpp"
 #include "armature/exec/internal/application/health.hpp"
 #include "armature/exec/internal/application/holders.hpp"
+#include "armature/exec/internal/application/journal.hpp"
 #include "armature/exec/internal/application/leftovers.hpp"
 #include "armature/exec/internal/application/life_cycle.hpp"
 #include "armature/exec/internal/application/mode_control.hpp"
@@ -93,6 +94,7 @@ struct Application::Parts {
 
   internal::Executor executor{clock, unreachable, death_notice, options.hook_limit};
   internal::TicketPool tickets;
+  internal::Journal journal{options, clock, tickets};
   internal::ToolAccess tools{roster, executor, tickets, options.grants};
   internal::ModeControl modes{blueprint, plan, roster, executor, health};
   internal::Transitions transitions{roster, executor, modes};
@@ -100,7 +102,7 @@ struct Application::Parts {
   internal::Watches watches{plan, roster, engines, executor};
   internal::CycleRecords cycle_records{blueprint, plan, engines, executor};
   internal::StopGuard stop_guard{options.before_stop, roster, holders, tools, transitions, outlets};
-  internal::RunLoop loop{options, clock, engines, health, outlets, stop_guard};
+  internal::RunLoop loop{options, clock, engines, health, outlets, stop_guard, journal};
   internal::BeforeStop before_stop{options, clock,  roster,  tools, tickets,
                                    holders, health, outlets, loop};
 
@@ -160,6 +162,7 @@ base::Diagnostics Application::start() {
 
 base::Diagnostics Application::stop() {
   base::Diagnostics diagnostics;
+  if (running()) parts_->journal.note({.kind = Act::Kind::kEnd});
   parts_->health.take_leave_of_the_dead(parts_->engines);
   if (parts_->health.end_of_run()) take_down(diagnostics);
   return diagnostics;
@@ -244,6 +247,8 @@ base::Result<void> Application::step() {
 
 base::Diagnostics Application::run_before_stop(RunEnd end, const platform::StopSignal* stop,
                                                Leave leave) {
+  const auto kind = leave == Leave::kInOrder ? Act::Kind::kBeforeStop : Act::Kind::kMistake;
+  parts_->journal.note({.kind = kind, .item = std::string(name_of(end))});
   return parts_->before_stop.run_commands(end, stop, leave);
 }
 
@@ -300,33 +305,51 @@ std::vector<ThreadStatistics> Application::thread_statistics() const {
 // ---- What is done to its components while it runs
 
 Outcome Application::start_component(std::string_view name) {
+  parts_->journal.note({.kind = Act::Kind::kStart, .component = std::string(name)});
   return parts_->transitions.start(name);
 }
 
-Outcome Application::stop_component(std::string_view name) { return parts_->stop_guard.stop(name); }
+Outcome Application::stop_component(std::string_view name) {
+  parts_->journal.note({.kind = Act::Kind::kStop, .component = std::string(name)});
+  return parts_->stop_guard.stop(name);
+}
 
 bool Application::is_on_way_to_stop(std::string_view name) const {
   return parts_->stop_guard.is_on_way(name);
 }
 
-void Application::cancel_way_to_stop(std::string_view name) { parts_->stop_guard.cancel(name); }
+void Application::cancel_way_to_stop(std::string_view name) {
+  parts_->journal.note({.kind = Act::Kind::kCancelStop, .component = std::string(name)});
+  parts_->stop_guard.cancel(name);
+}
 
 Outcome Application::recover_component(std::string_view name) {
+  parts_->journal.note({.kind = Act::Kind::kRecover, .component = std::string(name)});
   return parts_->transitions.recover(name);
 }
 
 Outcome Application::reset_component(std::string_view name) {
+  parts_->journal.note({.kind = Act::Kind::kReset, .component = std::string(name)});
   return parts_->transitions.reset(name);
 }
 
 Outcome Application::clean_up_component(std::string_view name) {
+  parts_->journal.note({.kind = Act::Kind::kCleanUp, .component = std::string(name)});
   return parts_->transitions.clean_up(name);
 }
 
-Outcome Application::switch_mode(std::string_view name) { return parts_->modes.switch_to(name); }
+Outcome Application::switch_mode(std::string_view name) {
+  parts_->journal.note({.kind = Act::Kind::kMode, .item = std::string(name)});
+  return parts_->modes.switch_to(name);
+}
 
 base::Result<void> Application::set_property(std::string_view component, std::string_view property,
                                              const types::Value& value, Caller caller) {
+  parts_->journal.note({.kind = Act::Kind::kSet,
+                        .component = std::string(component),
+                        .item = std::string(property),
+                        .values = {value},
+                        .caller = caller});
   return parts_->tools.set_property(component, property, value, caller);
 }
 
@@ -339,6 +362,11 @@ base::Result<std::optional<types::Value>> Application::call(std::string_view com
                                                             std::string_view operation,
                                                             std::vector<types::Value> arguments,
                                                             Caller caller) {
+  parts_->journal.note({.kind = Act::Kind::kCall,
+                        .component = std::string(component),
+                        .item = std::string(operation),
+                        .values = arguments,
+                        .caller = caller});
   return parts_->tools.call(component, operation, std::move(arguments), caller);
 }
 
@@ -346,7 +374,12 @@ base::Result<component::CommandHandle> Application::begin(std::string_view compo
                                                           std::string_view command,
                                                           std::vector<types::Value> arguments,
                                                           Caller caller) {
-  return parts_->tools.begin(component, command, std::move(arguments), caller);
+  const std::uint32_t number = parts_->journal.note({.kind = Act::Kind::kBegin,
+                                                     .component = std::string(component),
+                                                     .item = std::string(command),
+                                                     .values = arguments,
+                                                     .caller = caller});
+  return parts_->tools.begin(component, command, std::move(arguments), caller, number);
 }
 
 base::Result<std::int32_t> Application::watch(const std::vector<WatchedNumber>& numbers,
@@ -364,6 +397,16 @@ void Application::end_watch(std::int32_t handle) { parts_->watches.end(handle); 
 base::Result<RecordedCycle> Application::cycle(std::string_view thread) {
   if (!running()) return base::Error{base::quoted(blueprint().name) + " does not run"};
   return parts_->cycle_records.look(thread);
+}
+
+std::uint64_t Application::turns() const { return parts_->journal.turns(); }
+
+void Application::note_written(std::string_view writer, std::string_view input,
+                               const types::Value& value) {
+  parts_->journal.note({.kind = Act::Kind::kWrite,
+                        .component = std::string(writer),
+                        .item = std::string(input),
+                        .values = {value}});
 }
 
 bool Application::run_in_thread_of(component::Component& component, std::function<void()> work) {

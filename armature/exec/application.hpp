@@ -140,6 +140,10 @@ class Application final {
   /// Runs `work`, as code of `component`, in its thread, or here if that thread does not run; false
   /// if it was not done within the hook limit.
   bool run_in_thread_of(component::Component& component, std::function<void()> work);
+  /// For who writes inputs from outside: tells of the act before it is done.
+  void note_written(std::string_view writer, std::string_view input, const types::Value& value);
+  /// That threads took in simulated time since the start (see exec/act.hpp).
+  std::uint64_t turns() const;
 
   /// Has numbers copied by their threads after a cycle, no more often than that, so that looking at
   /// them costs no message. It ends with the run, or by `end_watch`.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/base/time.hpp"
+#include "armature/exec/act.hpp"
 #include "armature/exec/black_box.hpp"
 #include "armature/exec/pace.hpp"
 #include "armature/exec/timeline.hpp"
@@ -38,6 +39,7 @@ enum class Caller : std::uint8_t {
   kScript,
   kRemote,  ///< another process
 };
+ARMATURE_ENUM(Caller, kOperator, kScript, kRemote);
 
 /// An act of the operator (`component::by_operator`) that a caller may do in the operator's stead:
 /// an operation to call, or a property to set.
@@ -78,6 +80,8 @@ struct ApplicationOptions {
   /// Called by the controlling thread while it lets the application run, which it may use: in
   /// simulated time whenever all that is due at an instant is done, else every millisecond.
   std::function<void()> attend;
+  /// Is told each act before it is done, by the controlling thread; what only reads is no act.
+  std::function<void(const Act&)> acts;
 };
 
 }  // namespace armature::exec

@@ -40,6 +40,7 @@ struct ComponentEntry {
   base::Location where;
   bool autostart = true;      ///< false: only `Application::start_component` starts it
   bool autoconfigure = true;  ///< false: it is configured only then, too
+  bool shadow = false;        ///< looks on and moves nothing: exec/internal/plan_shadows.cpp
 };
 
 /// A connection by the names of its ends.

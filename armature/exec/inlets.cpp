@@ -38,6 +38,7 @@ base::Result<void> Inlets::write(Application& application, const component::Inpu
   };
   const auto writing = std::make_shared<Writing>(Writing{value});
   component::OutputPortBase& writer = *inlet->writer;
+  application.note_written(name(), path_of(input), value);
   const bool done = application.run_in_thread_of(
       *this, [writing, &writer] { writing->status = writer.write_from(writing->value.data()); });
   if (!done) return base::Error{"the thread that writes '" + path_of(input) + "' does not answer"};

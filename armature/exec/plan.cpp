@@ -56,6 +56,7 @@ Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   // With mistakes in names or wiring, components would see what nobody meant.
   const bool as_meant = diagnostics.ok() && blueprint.absent.empty();
   if (as_meant) internal::check_components(blueprint, plan, diagnostics);
+  internal::check_shadows(blueprint, plan, diagnostics);
   return plan;
 }
 

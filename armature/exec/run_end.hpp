@@ -6,6 +6,7 @@
 
 #include "armature/component/component.hpp"
 #include "armature/rt/statistics.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::exec {
 
@@ -30,6 +31,7 @@ enum class RunEnd : std::uint8_t {
   kStoppedByReaction,
   kConditionMet
 };
+ARMATURE_ENUM(RunEnd, kTimeUp, kStopRequested, kFaulted, kStoppedByReaction, kConditionMet);
 
 /// What a thread did since its start.
 struct ThreadStatistics {

@@ -6,6 +6,7 @@
 #include "armature/general/controls/button.hpp"
 #include "armature/general/controls/comparator.hpp"
 #include "armature/general/controls/constant.hpp"
+#include "armature/general/controls/deviation.hpp"
 #include "armature/general/controls/displays.hpp"
 #include "armature/general/controls/integrator.hpp"
 #include "armature/general/controls/latch.hpp"
@@ -29,6 +30,8 @@ ARMATURE_COMPONENT_LIBRARY(controls, registry) {
   registry.add<Adder>("Adder", "adds its inputs, each with its sign");
   registry.add<Multiplier>("Multiplier", "multiplies its inputs");
   registry.add<Comparator>("Comparator", "tells when a value passes a threshold");
+  registry.add<Deviation>("Deviation", "tells how far a shadow's number is from the driving one");
+  registry.add<Deviations>("Deviations", "tells how far a shadow's list is from the driving one");
   registry.add<Selector>("Selector", "passes on one of its inputs");
   registry.add<Latch>("Latch", "passes on the last number that it was told");
   registry.add<Limit>("Limit", "keeps a value between two bounds");

@@ -182,8 +182,10 @@ class DeployerWriter {
 
   void write_component(const Component& component, const Value& tree) {
     Attributes attributes = {{"name", component.name}, {"type", component.model}};
-    for (const char* key : {"remote", "interface", "bind", "calls", "superiors", "delays"})
+    for (const char* key :
+         {"remote", "interface", "bind", "calls", "superiors", "delays", "shadow"}) {
       extend(attributes, tree, key);
+    }
     writer_.open("struct", attributes);
     write_activity(component.activity, find(tree.entries, "activity")->value);
     write_flag("AutoConf", component.autoconf);

@@ -159,6 +159,7 @@ std::string page_with(const Runs& runs, const Points& points) {
       if (found.contains(shown)) page[shown] = found[shown];
     }
   }
+  if (!runs.what_if_json.empty()) page["what_if"] = Json::parse(runs.what_if_json);
   if (!runs.goals.empty() || !runs.phases.all.empty()) add_figures(runs, page);
   const std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;

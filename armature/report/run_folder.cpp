@@ -169,6 +169,7 @@ Runs load_runs(const std::string& folder, base::Diagnostics& diagnostics) {
   runs.name = name_of(folder);
   const Content content = content_of(folder, diagnostics);
   runs.figures_json = load_json(fs::path(folder) / kFiguresFile, diagnostics);
+  runs.what_if_json = load_json(fs::path(folder) / kWhatIfFile, diagnostics);
   const fs::path phases = fs::path(folder) / kPhasesFile;
   runs.phases = parse_phases(load_json(phases, diagnostics), phases.string(), diagnostics);
   const auto load = [&](const fs::path& from, const Content& has) {

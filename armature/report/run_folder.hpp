@@ -23,6 +23,8 @@ inline constexpr const char* kTraceFile = "trace.json";
 inline constexpr const char* kCycleFile = "io.json";
 /// What another program found of the runs, in their folder.
 inline constexpr const char* kFiguresFile = "figures.json";
+/// That one of the runs was done again with changes, and with which; in their folder.
+inline constexpr const char* kWhatIfFile = "what_if.json";
 /// What the runs are to reach, in their folder.
 inline constexpr const char* kGoalsFile = "to_reach.json";
 /// The phases of a cycle, in that folder, too.
@@ -50,6 +52,7 @@ struct Runs {
   std::vector<Run> runs;       ///< of the folder itself, or of those in it, by their names
   std::string cycle_json;      ///< the content of kCycleFile; empty: none
   std::string figures_json{};  ///< the content of kFiguresFile; empty: none
+  std::string what_if_json{};  ///< the content of kWhatIfFile; empty: none
   std::vector<Goal> goals{};
   Phases phases{};
 };

@@ -105,6 +105,11 @@ Part& Part::bind(std::string_view requirement, std::string_view peer, std::strin
   return *this;
 }
 
+Part& Part::shadow() {
+  if (auto* const entry = assembly_.entry(index_)) entry->shadow = true;
+  return *this;
+}
+
 Part& Part::autostart(bool yes) {
   if (auto* const entry = assembly_.entry(index_)) entry->autostart = yes;
   return *this;

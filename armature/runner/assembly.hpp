@@ -46,6 +46,8 @@ class Part {
   Part& bind(std::string_view requirement, std::string_view peer, std::string_view member);
   Part& autostart(bool yes);
   Part& autoconfigure(bool yes);
+  /// It looks on and moves nothing.
+  Part& shadow();
 
  private:
   Part& give(std::string_view property, const types::Value& value);

@@ -58,7 +58,7 @@ void add(const exec::ComponentEntry& entry, std::string& to) {
   const component::Component& component = *entry.component;
   to += "component " + component.name() + " model " + entry.model + " activity " +
         activity_text(entry.activity) + (entry.autostart ? "" : " no autostart") +
-        (entry.autoconfigure ? "" : " no autoconfigure") + '\n';
+        (entry.autoconfigure ? "" : " no autoconfigure") + (entry.shadow ? " shadow" : "") + '\n';
   for (const exec::PeerEntry& peer : entry.peers) {
     to += (peer.superior ? "  superior " : "  peer ") + peer.name + '\n';
   }

@@ -170,6 +170,11 @@ class ThreadPlanner {
     called_or_triggered_by_.add(from, to);
   }
 
+  /// Shadows run in the threads of shadows, whoever triggers them.
+  bool crosses(Index from, Index to) const {
+    return blueprint_.components[from].shadow != blueprint_.components[to].shadow;
+  }
+
   /// Gives every unassigned component the most urgent thread that reaches it.
   void spread(const Edges& edges) {
     std::vector<Index> by_urgency;
@@ -187,7 +192,7 @@ class ThreadPlanner {
         const Index from = open.front();
         open.pop_front();
         for (const Index to : edges[from]) {
-          if (plan_.thread_of[to] != kNone) continue;
+          if (plan_.thread_of[to] != kNone || crosses(from, to)) continue;
           plan_.thread_of[to] = thread;
           open.push_back(to);
         }

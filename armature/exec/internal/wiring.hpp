@@ -66,6 +66,9 @@ std::vector<Index> who_runs_for(const Blueprint& blueprint, const Plan& plan, In
 /// Refuses modes that leave out what holds something, or whom it needs for that.
 void check_holders(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
 
+/// Refuses all by which a shadow could have an effect on who is none, or hold it up.
+void check_shadows(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
+
 /// Warns of a triggered consumer that is more urgent than its producer.
 void check_priorities(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
 

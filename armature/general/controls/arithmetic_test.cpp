@@ -10,6 +10,7 @@
 #include "armature/general/controls/adder.hpp"
 #include "armature/general/controls/comparator.hpp"
 #include "armature/general/controls/constant.hpp"
+#include "armature/general/controls/deviation.hpp"
 #include "armature/general/controls/integrator.hpp"
 #include "armature/general/controls/limit.hpp"
 #include "armature/general/controls/multiplier.hpp"
@@ -59,6 +60,39 @@ TEST(Adder, NeedsASignForEachInputIfThereAreAny) {
   adder.set("Signs", "[1, -1, 1]");
   EXPECT_FALSE(adder.start());
   EXPECT_THAT(adder.reason(), HasSubstr("give each one"));
+}
+
+TEST(Deviation, IsThatOfTheShadowsValueFromTheNewestDrivingOne) {
+  auto deviation = bench<Deviation>();
+  ASSERT_TRUE(deviation.start()) << deviation.reason();
+  deviation.write("Shadow", 1.0);
+  EXPECT_EQ(deviation.writes("Difference"), 0u) << "nobody drives yet";
+  deviation.write("Driving", 3.0);
+  EXPECT_EQ(deviation.writes("Difference"), 0u) << "it waits for the shadow";
+  deviation.write("Shadow", 5.5);
+  EXPECT_EQ(deviation.output<double>("Difference"), 2.5);
+  deviation.write("Shadow", 2.0);
+  EXPECT_EQ(deviation.output<double>("Difference"), 1.0);
+  EXPECT_EQ(deviation.output<double>("Largest"), 2.5);
+}
+
+TEST(Deviation, OfWhatIsNoNumberIsInfinite) {
+  auto deviation = bench<Deviation>();
+  ASSERT_TRUE(deviation.start()) << deviation.reason();
+  deviation.write("Driving", 3.0);
+  deviation.write("Shadow", std::numeric_limits<double>::quiet_NaN());
+  deviation.write("Shadow", 3.0);
+  EXPECT_EQ(deviation.output<double>("Difference"), 0.0);
+  EXPECT_EQ(deviation.output<double>("Largest"), std::numeric_limits<double>::infinity());
+}
+
+TEST(Deviations, AreThoseOfTheElementsThatAreFurthestApart) {
+  auto deviation = bench<Deviations>();
+  deviation.set("Size", 2);
+  ASSERT_TRUE(deviation.start()) << deviation.reason();
+  deviation.write("Driving", std::vector{1.0, 2.0});
+  deviation.write("Shadow", std::vector{1.5, -1.0});
+  EXPECT_EQ(deviation.output<double>("Difference"), 3.0);
 }
 
 TEST(Multiplier, MultipliesOnceBothAreThere) {

@@ -158,6 +158,7 @@ Calls component_calls(const exec::ComponentEntry& entry, const document::Compone
   }
   if (!entry.autoconfigure) calls.push_back(call(".autoconfigure", {yes_or_no(false)}));
   if (!entry.autostart) calls.push_back(call(".autostart", {yes_or_no(false)}));
+  if (entry.shadow) calls.push_back(call(".shadow", {}));
   return calls;
 }
 

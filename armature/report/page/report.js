@@ -31,8 +31,13 @@
     const runs = data.runs.map((run) => run.name).filter((name) => name !== data.name);
     root.append(el('header', {}, el('p', {class: 'eyebrow'}, 'Armature report'), el('h1', {}, data.title),
       el('p', {class: 'lead'}, runs.length > 0 ? `${data.name}: ${runs.join(', ')}` : data.name)));
+    if (data.what_if) root.append(el('p', {class: 'note'}, whatIf(data.what_if)));
     if (tracked.length > 0) keyFigures();
   }
+
+  /** What the runs of a replay with changes have to do with each other. */
+  const whatIf = ({changes}) => `What if: ${changes.join(', ')}. “was” is what was recorded. “what-if” is the same run with these changes, ` +
+    'simulated anew with its plant: what operators and scripts did is done at the same times.';
 
   /** Errors are shown in mrad, unless they are large. */
   const largest = Math.max(0, ...tracked.flatMap((run) => run.joints.map((joint) => joint.max_abs_error_rad)));
@@ -110,6 +115,7 @@
 
   function positions() {
     const part = section('Position', 'Desired and measured.');
+    if (data.what_if) return positionsTogether(part);
     for (const run of tracked) {
       part.append(el('p', {class: 'eyebrow', style: 'margin: 18px 0 0'}, run.name));
       const parent = grid(part, run.joints.length);
@@ -118,6 +124,17 @@
           {label: 'desired', stroke: '--desired', broad: true, ...unpacked(joint.curves.desired)},
           {label: 'measured', stroke: colorOf.get(run), ...unpacked(joint.curves.measured)}]});
       }
+    }
+  }
+
+  /** What was beside what would have been. */
+  function positionsTogether(part) {
+    const parent = grid(part, jointNames.length);
+    for (const name of jointNames) {
+      const runs = tracked.filter((run) => jointOf(run, name));
+      plot(parent, {title: `Joint ${name}`, unit: 'rad', moments: momentsOf(runs), lines: [
+        {label: 'desired', stroke: '--desired', broad: true, ...unpacked(jointOf(runs[0], name).curves.desired)},
+        ...runs.map((run) => ({label: run.name, stroke: colorOf.get(run), ...unpacked(jointOf(run, name).curves.measured)}))]});
     }
   }
 

@@ -98,7 +98,8 @@ void Project::find_files() {
     return *this->text(path);
   };
   base::Diagnostics ignored;
-  deploy::load_document(file_, {recorded, {}, {}}, ignored);
+  deploy::load_document(file_, {.read = recorded, .seen = {}, .overrides = {}, .limits = {}},
+                        ignored);
   std::erase_if(files_, [&](const auto& file) {
     return file.first != file_ && !file.second.is_changed() &&
            std::ranges::find(read, file.first) == read.end();

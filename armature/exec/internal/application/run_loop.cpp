@@ -11,12 +11,14 @@ namespace armature::exec::internal {
 
 void RunLoop::begin_anew() {
   simulation_.reset();
+  journal_.begin_anew();
   set_pace(options_.pace);
   if (options_.simulated) simulation_.emplace(pointers_to(engines_));
 }
 
 RunEnd RunLoop::run_until(base::Time end, const std::function<bool()>& condition,
                           const platform::StopSignal* stop) {
+  journal_.note_cancelled();
   return options_.simulated ? simulate_until(end, condition, stop)
                             : attend_until(end, condition, stop);
 }
@@ -49,6 +51,7 @@ RunEnd RunLoop::simulate_until(base::Time end, const std::function<bool()>& cond
   pacer_.set(pace().rate, clock_.now(), platform::monotonic_now());
   while (true) {
     while (Engine* const engine = simulation_->take_turn(clock_.now())) {
+      journal_.count_turn();
       outlets_.drain_after_turn(*engine);
       if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
       if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
@@ -98,7 +101,11 @@ void RunLoop::attend() {
   outlets_.write_black_boxes(health_.incidents());
   stop_guard_.finish();
   outlets_.tell_losses_now_and_then();
-  if (options_.attend) options_.attend();
+  if (!options_.attend) return;
+  journal_.set_attending(true);
+  options_.attend();
+  journal_.note_cancelled();
+  journal_.set_attending(false);
 }
 
 }  // namespace armature::exec::internal

@@ -8,6 +8,7 @@
 #include "armature/exec/internal/application/clock.hpp"
 #include "armature/exec/internal/application/engines.hpp"
 #include "armature/exec/internal/application/health.hpp"
+#include "armature/exec/internal/application/journal.hpp"
 #include "armature/exec/internal/application/outlets.hpp"
 #include "armature/exec/internal/application/pacer.hpp"
 #include "armature/exec/internal/application/stop_guard.hpp"
@@ -25,13 +26,14 @@ namespace armature::exec::internal {
 class RunLoop {
  public:
   RunLoop(const ApplicationOptions& options, Clock& clock, const Engines& engines, Health& health,
-          Outlets& outlets, StopGuard& stop_guard)
+          Outlets& outlets, StopGuard& stop_guard, Journal& journal)
       : options_(options),
         clock_(clock),
         engines_(engines),
         health_(health),
         outlets_(outlets),
-        stop_guard_(stop_guard) {}
+        stop_guard_(stop_guard),
+        journal_(journal) {}
 
   /// The engines are others than before.
   void begin_anew();
@@ -63,6 +65,7 @@ class RunLoop {
   Health& health_;
   Outlets& outlets_;
   StopGuard& stop_guard_;
+  Journal& journal_;
   std::optional<Simulation> simulation_;
   Pacer pacer_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -14,7 +15,10 @@ namespace armature::exec::internal {
 class TicketPool {
  public:
   /// One that nobody has, for this command.
-  ToolTicket& claim(component::CommandBase& command);
+  /// @param number  of the act that begins it; 0: none
+  ToolTicket& claim(component::CommandBase& command, std::uint32_t number = 0);
+  /// The numbers of those that were asked to end since the last time.
+  std::vector<std::uint32_t> take_cancelled();
   /// Has all commands that are under way, or wait, come to an end.
   /// @return whether there was one
   bool cancel_all();

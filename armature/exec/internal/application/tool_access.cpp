@@ -146,7 +146,8 @@ base::Result<std::optional<types::Value>> ToolAccess::call(std::string_view name
 base::Result<component::CommandHandle> ToolAccess::begin(std::string_view name,
                                                          std::string_view command_name,
                                                          std::vector<types::Value> arguments,
-                                                         Caller caller) const {
+                                                         Caller caller,
+                                                         std::uint32_t number) const {
   const auto found = operation_for(name, command_name, caller);
   if (!found) return base::Error{found.error()};
   if (!found.value()->is_command()) {
@@ -154,7 +155,7 @@ base::Result<component::CommandHandle> ToolAccess::begin(std::string_view name,
                        " is an operation, not a command: call it"};
   }
   auto* const command = static_cast<component::CommandBase*>(found.value());
-  ToolTicket* const ticket = &tickets_.claim(*command);
+  ToolTicket* const ticket = &tickets_.claim(*command, number);
   component::CommandHandle handle(*ticket);
   const auto begun = std::make_shared<base::Result<void>>();
   if (!executor_.run_in_thread_of(command->owner(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -30,9 +31,10 @@ class ToolAccess {
                                                  std::string_view operation,
                                                  std::vector<types::Value> arguments,
                                                  Caller caller) const;
+  /// @param number  of the act; 0: nobody keeps account of acts
   base::Result<component::CommandHandle> begin(std::string_view component, std::string_view command,
-                                               std::vector<types::Value> arguments,
-                                               Caller caller) const;
+                                               std::vector<types::Value> arguments, Caller caller,
+                                               std::uint32_t number = 0) const;
 
  private:
   /// An error that says why not if `caller` may not do this act of the operator.

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/cli/replay.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "armature/base/seconds.hpp"
+#include "armature/cli/replay_view.hpp"
+#include "armature/cli/report.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/exec/inlets.hpp"
+#include "armature/platform/clock.hpp"
+#include "armature/platform/file.hpp"
+#include "armature/remote/interface_file.hpp"
+#include "armature/replay/acts.hpp"
+#include "armature/replay/folders.hpp"
+#include "armature/replay/reenactment.hpp"
+#include "armature/report/report.hpp"
+#include "armature/report/run_folder.hpp"
+#include "armature/runner/stages.hpp"
+
+namespace armature::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using rt::LogLevel;
+
+constexpr const char* kWas = "was";
+constexpr const char* kWhatIf = "what-if";
+
+/// One recorded run, and where it is done again.
+struct Recorded {
+  std::string folder;
+  std::string out;  ///< what is made by all of this
+  std::string run;  ///< the folder of the run that is done now: `out`, or one in it
+  replay::Experiment experiment;
+  std::vector<replay::RecordedAct> acts;
+};
+
+std::string place_of(const ReplayArguments& arguments) {
+  const fs::path given = arguments.out.empty() ? fs::path(arguments.folder) /
+                                                     (arguments.changes.any() ? kWhatIf : "replay")
+                                               : fs::path(arguments.out);
+  return fs::absolute(given).lexically_normal().string();
+}
+
+/// All that is read before anything is made.
+base::Result<Recorded> read_recorded(const ReplayArguments& arguments) {
+  Recorded recorded;
+  recorded.folder = fs::absolute(arguments.folder).lexically_normal().string();
+  auto experiment = replay::load_experiment(arguments.folder);
+  if (!experiment) return base::Error{experiment.error()};
+  recorded.experiment = std::move(experiment).value();
+  if (!replay::has_recordings(recorded.folder)) {
+    return base::Error{"'" + arguments.folder +
+                       "' has no recording (*.mcap) to compare with: let a Reporter record what is "
+                       "of interest, `file: run.mcap`"};
+  }
+  if (!recorded.experiment.simulated) {
+    return base::Error{"'" + arguments.folder +
+                       "' was recorded in real time, whose cycles come as the machine lets them: "
+                       "only runs in simulated time (armature run --sim) are replayed"};
+  }
+  auto acts = replay::load_acts(arguments.folder);
+  if (!acts) return base::Error{acts.error()};
+  recorded.acts = std::move(acts).value();
+  recorded.out = place_of(arguments);
+  recorded.run = arguments.changes.any() ? recorded.out + '/' + kWhatIf : recorded.out;
+  return recorded;
+}
+
+deploy::DeploymentOptions options_for(const ReplayArguments& arguments) {
+  deploy::DeploymentOptions options;
+  options.library_folders = arguments.library_folders;
+  options.read_interface = remote::read_interface;
+  options.make_inlets = [](const std::vector<component::InputPortBase*>& inputs)
+      -> base::Result<std::unique_ptr<component::Component>> {
+    return std::unique_ptr<component::Component>(
+        std::make_unique<exec::Inlets>(document::kNetworkName, inputs));
+  };
+  return options;
+}
+
+/// Recorders write where this run is, whatever folder they had.
+void keep_files_in_place(exec::Blueprint& blueprint) {
+  for (exec::ComponentEntry& entry : blueprint.components) {
+    const component::Interface& interface = component::interface_of(*entry.component);
+    if (interface.observers.empty()) continue;
+    for (component::PropertyBase* property : interface.properties) {
+      if (property->name() != "file" && property->name() != "csv") continue;
+      const std::string file = types::to_text(property->type(), property->data());
+      const std::string name = fs::path(file).filename().string();
+      if (name != file) static_cast<void>(property->set(types::Value::of(name)));
+    }
+  }
+}
+
+std::vector<std::string> order_of(const exec::Application& application) {
+  std::vector<std::string> order;
+  for (const exec::Index index : application.plan().start_order) {
+    order.push_back(application.blueprint().components[index].component->name());
+  }
+  return order;
+}
+
+std::vector<replay::Flow> flows_of(const exec::Application& application) {
+  std::vector<replay::Flow> flows;
+  for (const exec::ConnectionPlan& connection : application.plan().connections) {
+    flows.push_back({connection.output->owner().name() + '.' + connection.output->name(),
+                     connection.input->owner().name() + '.' + connection.input->name()});
+  }
+  return flows;
+}
+
+/// How the run that was done again ended.
+struct Done {
+  bool to_the_end = false;           ///< of the recorded run
+  base::Time until{};                ///< all before it was done
+  bool failed = false;               ///< it could not be done
+  std::vector<std::string> order{};  ///< components, writers before readers
+  std::vector<replay::Flow> flows{};
+};
+
+Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
+              const ReplayArguments& arguments, const Console& console) {
+  report::RunFacts facts;
+  facts.deployment = recorded.experiment.deployment;
+  facts.simulated = true;
+  replay::Reenactment reenactment(recorded.acts);
+  runner::RunOptions run;
+  run.simulated = true;
+  run.output_folder = recorded.run;
+  exec::ApplicationOptions options = std::move(deployment.options);
+  runner::apply(run, options);
+  options.log = [&](const rt::LogRecord& record) { note_for_summary(facts, record); };
+  options.attend = [&] { reenactment.attend(); };
+  exec::Application application(std::move(deployment.blueprint), std::move(options));
+  const base::Diagnostics started = application.start();
+  if (!started.ok()) {
+    console.show(started);
+    return {.failed = true};
+  }
+  const base::Time wall_begin = platform::monotonic_now();
+  ReplayView view(application, arguments, console);
+  if (!view.ok()) return {.failed = true};
+  const base::Time end =
+      reenactment.cut_off() ? replay::end_of_recordings(recorded.folder) : base::Time::max();
+  const base::Time until = arguments.until ? base::Time{} + *arguments.until : base::Time::max();
+  facts.end = reenactment.run(application, std::min(end, until), [&] { return view.look(); });
+  facts.duration = application.now() - base::Time{};
+  facts.wall_time = platform::monotonic_now() - wall_begin;
+  Done done{.to_the_end = facts.end != exec::RunEnd::kConditionMet && application.now() < until,
+            .until = application.now(),
+            .order = order_of(application),
+            .flows = flows_of(application)};
+  if (done.to_the_end) done.until = base::Time::max();
+  base::Diagnostics ended = application.stop();
+  ended.append(reenactment.problems());
+  console.show(ended);
+  facts.exit_code = runner::exit_code(facts.end, application);
+  done.failed = !write_run_summary(recorded.run, facts, application, console);
+  return done;
+}
+
+std::string seconds_text(base::Time time) { return base::to_text(time - base::Time{}); }
+
+void tell(const replay::Difference& first, const Console& console) {
+  const std::string component(replay::component_of(first.channel));
+  const std::string port =
+      first.channel.size() > component.size() ? first.channel.substr(component.size() + 1) : "";
+  console.print("first difference at " + seconds_text(first.time) + ", " +
+                (port.empty() ? "component " + component
+                              : "sample " + std::to_string(first.sequence) + " of component " +
+                                    component + ", port " + port) +
+                ":\n  was " + first.was + "\n  is  " + first.is + "\n");
+}
+
+int compare(const Recorded& recorded, const Done& done, const Console& console) {
+  const replay::Losses losses = replay::losses_of(recorded.folder, recorded.experiment);
+  replay::ComparisonOptions options;
+  options.losses = !losses.known || losses.samples > 0;
+  options.until = done.until;
+  base::Diagnostics problems;
+  const replay::Comparison found =
+      replay::compare_folders(recorded.folder, recorded.run, done.to_the_end, options, problems);
+  console.show(problems);
+  for (const std::string& channel : found.only_recorded) {
+    console.say(LogLevel::kError, "'" + channel +
+                                      "' was recorded, but is not recorded now: this "
+                                      "deployment has no such port or property");
+  }
+  if (const auto first = found.first(done.flows, done.order)) {
+    tell(*first, console);
+    return kDiffers;
+  }
+  if (!problems.ok() || !found.only_recorded.empty()) return kFailed;
+  const std::string amount = std::to_string(found.equal) + " samples of " +
+                             std::to_string(found.channels) + " ports and properties";
+  if (found.equal == 0) {
+    console.say(LogLevel::kError, "nothing could be compared: there is no sample before the end");
+    return kFailed;
+  }
+  if (losses.samples == 0 && found.missing == 0) {
+    console.print("equal to the bit: " + amount + "\n");
+    return kDone;
+  }
+  console.print("not all is known: " + amount + " are equal to the bit, but " +
+                std::to_string(std::max(losses.samples, found.missing)) +
+                " samples are missing in the recording\n");
+  return kNotAllCompared;
+}
+
+/// What was beside what would have been, on one page.
+int show_what_if(const Recorded& recorded, const replay::Changes& changes, const Console& console) {
+  auto done = replay::copy_run(recorded.folder, recorded.out + '/' + kWas);
+  if (done) done = replay::write_changes(recorded.out + '/' + report::kWhatIfFile, changes);
+  if (!done) {
+    console.say(LogLevel::kError, done.error());
+    return kFailed;
+  }
+  base::Diagnostics diagnostics;
+  const report::Written written = report::write_report({recorded.out, {}}, diagnostics);
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  console.print("what was, beside what would have been, is in " + written.page + "\n");
+  return kDone;
+}
+
+}  // namespace
+
+int replay(const ReplayArguments& arguments, Console& console) {
+  auto read = read_recorded(arguments);
+  if (!read) {
+    console.say(LogLevel::kError, read.error());
+    return kFailed;
+  }
+  Recorded& recorded = read.value();
+  const auto place = replay::make_place(recorded.out);
+  if (!place) {
+    console.say(LogLevel::kError, place.error());
+    return kFailed;
+  }
+  platform::FolderLock lock;
+  if (!runner::make_output_folder(recorded.run, lock, console)) return kFailed;
+  replay::Changes changes = arguments.changes;
+  if (!changes.file.empty()) changes.file = fs::absolute(changes.file).string();
+  std::error_code ignored;
+  fs::current_path(recorded.experiment.folder, ignored);  // relative paths begin there
+  deploy::Deployment deployment =
+      replay::load_recorded(recorded.experiment, changes, recorded.run, options_for(arguments));
+  console.show(deployment.diagnostics);
+  if (!deployment.ok()) return kFailed;
+  keep_files_in_place(deployment.blueprint);
+  const Done done = do_again(recorded, deployment, arguments, console);
+  if (done.failed) return kFailed;
+  return changes.any() ? show_what_if(recorded, changes, console)
+                       : compare(recorded, done, console);
+}
+
+}  // namespace armature::cli

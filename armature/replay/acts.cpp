@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/replay/acts.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "armature/exec/application_options.hpp"
+#include "armature/platform/file.hpp"
+#include "armature/platform/output_file.hpp"
+#include "armature/record/json.hpp"
+
+namespace armature::replay {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using exec::Act;
+using types::name_of;
+
+/// Of a disk that hangs, no more is kept than this [bytes].
+constexpr std::size_t kMostWaiting = 4u << 20;
+
+std::string line_of(const Act& act) {
+  Json line{{"time_ns", base::to_ns(act.time)},
+            {"turn", act.turn},
+            {"act", std::string(name_of(act.kind))}};
+  if (!act.component.empty()) line["component"] = act.component;
+  if (!act.item.empty()) line["item"] = act.item;
+  if (!act.values.empty()) {
+    line["values"] = Json::array();
+    for (const types::Value& value : act.values) {
+      line["values"].push_back(record::to_json(value.type(), value.data()));
+    }
+  }
+  if (act.caller != exec::Caller::kOperator) line["caller"] = std::string(name_of(act.caller));
+  if (act.command != 0) line["command"] = act.command;
+  if (act.attended) line["attended"] = true;
+  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+/// Throws what nlohmann throws if a member is missing or is something else.
+std::optional<RecordedAct> act_in(std::string_view text) {
+  const Json line = Json::parse(text);
+  RecordedAct read;
+  Act& act = read.act;
+  const auto kind = types::value_named<Act::Kind>(line.at("act").get<std::string>());
+  const auto caller = types::value_named<exec::Caller>(line.value("caller", "operator"));
+  if (!kind || !caller) return std::nullopt;
+  act.kind = *kind;
+  act.caller = *caller;
+  act.time = base::time_from_ns(line.at("time_ns").get<std::int64_t>());
+  line.at("turn").get_to(act.turn);
+  act.component = line.value("component", std::string());
+  act.item = line.value("item", std::string());
+  act.command = line.value("command", std::uint32_t{0});
+  act.attended = line.value("attended", false);
+  if (line.contains("values")) line["values"].get_to(read.values);
+  return read;
+}
+
+}  // namespace
+
+struct ActsWriter::State {
+  explicit State(platform::OutputFile of_acts) : file(std::move(of_acts)) {}
+
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::string waiting;
+  std::uint64_t lost = 0;
+  bool writing = false;
+  bool ending = false;
+  std::optional<base::Error> failure;
+  platform::OutputFile file;  ///< the thread's
+
+  void serve() {
+    std::string text;
+    while (true) {
+      {
+        std::unique_lock lock(mutex);
+        writing = false;
+        changed.notify_all();
+        changed.wait(lock, [this] { return !waiting.empty() || ending; });
+        if (waiting.empty()) return;
+        text = std::exchange(waiting, {});
+        writing = true;
+      }
+      const auto written = file.write(text);
+      if (written) continue;
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = base::Error{written.error()};
+    }
+  }
+};
+
+ActsWriter::ActsWriter(std::shared_ptr<State> state) : state_(std::move(state)) {
+  platform::ThreadRequest request;
+  request.name = "acts";
+  request.stack_bytes = 64 * 1024;
+  request.prefault = false;
+  thread_ = std::make_unique<platform::Thread>(request, [shared = state_] { shared->serve(); });
+}
+
+base::Result<std::unique_ptr<ActsWriter>> ActsWriter::create(const std::string& folder) {
+  auto file = platform::OutputFile::create(folder + '/' + kActsFile);
+  if (!file) return base::Error{file.error()};
+  return std::unique_ptr<ActsWriter>(
+      new ActsWriter(std::make_shared<State>(std::move(file).value())));
+}
+
+ActsWriter::~ActsWriter() { static_cast<void>(close()); }
+
+void ActsWriter::add(const Act& act) {
+  const std::string line = line_of(act);
+  const std::lock_guard lock(state_->mutex);
+  if (state_->waiting.size() + line.size() > kMostWaiting) {
+    ++state_->lost;
+    return;
+  }
+  state_->waiting += line;
+  state_->changed.notify_all();
+}
+
+base::Result<void> ActsWriter::close() {
+  if (thread_ == nullptr) return {};
+  constexpr base::Duration kPatience = std::chrono::seconds(1);
+  std::unique_lock lock(state_->mutex);
+  state_->changed.wait_for(lock, kPatience,
+                           [this] { return state_->waiting.empty() && !state_->writing; });
+  const bool complete = state_->waiting.empty() && !state_->writing && state_->lost == 0;
+  const std::optional<base::Error> failure = state_->failure;
+  state_->ending = true;
+  lock.unlock();
+  state_->changed.notify_all();
+  // It may hang in a disk that takes nothing; the end of the process ends that, too.
+  if (!thread_->join_within(std::chrono::milliseconds(100))) thread_->abandon();
+  thread_.reset();
+  if (failure) return *failure;
+  if (complete) return {};
+  return base::Error{"not all acts are in '" + state_->file.path() +
+                     "', since the disk is too slow: this run cannot be replayed"};
+}
+
+base::Result<std::vector<RecordedAct>> load_acts(const std::string& folder) {
+  const std::string path = folder + '/' + kActsFile;
+  const auto content = platform::read_file(path);
+  if (!content) return base::Error{content.error()};
+  std::vector<RecordedAct> acts;
+  std::string_view rest = content.value();
+  for (int line = 1; rest.find('\n') != std::string_view::npos; ++line) {
+    const std::string_view text = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(text.size() + 1);
+    try {
+      auto act = act_in(text);
+      if (!act) return base::Error{path + ':' + std::to_string(line) + ": unknown act or caller"};
+      acts.push_back(std::move(*act));
+    } catch (const Json::exception& problem) {
+      return base::Error{path + ':' + std::to_string(line) +
+                         ": not what armature run leaves: " + problem.what()};
+    }
+  }
+  return acts;
+}
+
+}  // namespace armature::replay

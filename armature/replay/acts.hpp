@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/exec/act.hpp"
+#include "armature/platform/thread.hpp"
+
+namespace armature::replay {
+
+/// Its name in the folder of a run.
+inline constexpr const char* kActsFile = "acts.jsonl";
+
+/// Writes the acts of a run, a line of JSON each. Whoever tells of one waits for nobody: a thread
+/// writes them, and a disk that hangs holds up that thread alone.
+class ActsWriter {
+ public:
+  /// Makes the file, or empties the one that is there.
+  static base::Result<std::unique_ptr<ActsWriter>> create(const std::string& folder);
+  ActsWriter(const ActsWriter&) = delete;
+  ActsWriter& operator=(const ActsWriter&) = delete;
+  /// Gives what is left a second to be written.
+  ~ActsWriter();
+
+  /// @thread one at a time
+  void add(const exec::Act& act);
+  /// Completes the file; the error says what is missing in it.
+  base::Result<void> close();
+
+ private:
+  struct State;
+  explicit ActsWriter(std::shared_ptr<State> state);
+
+  std::shared_ptr<State> state_;
+  std::unique_ptr<platform::Thread> thread_;
+};
+
+/// An act as it was read; who knows the types of its values reads them.
+struct RecordedAct {
+  exec::Act act;                    ///< without values
+  std::vector<std::string> values;  ///< as record::to_json has them
+};
+
+/// Reads what ActsWriter wrote. A last line that is cut off is left out.
+base::Result<std::vector<RecordedAct>> load_acts(const std::string& folder);
+
+}  // namespace armature::replay

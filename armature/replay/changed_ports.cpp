@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/replay/changed_ports.hpp"
+
+#include "armature/component/interface.hpp"
+
+namespace armature::replay {
+namespace {
+
+constexpr std::size_t kLongest = 80;
+
+/// No letter of more than one byte is cut in two.
+std::string cut_off(std::string text) {
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
+  return text.substr(0, end) + "...";
+}
+
+}  // namespace
+
+ChangedPorts::ChangedPorts(const exec::Application& application) {
+  for (const exec::Index index : application.plan().start_order) {
+    const component::Component& component = *application.blueprint().components[index].component;
+    for (const auto* port : component::interface_of(component).outputs) {
+      ports_.push_back({component.name() + '.' + port->name(), port, 0, {}});
+    }
+  }
+}
+
+std::string ChangedPorts::look() {
+  std::string changes;
+  for (Seen& seen : ports_) {
+    const std::uint64_t sequence = seen.port->current_sequence();
+    if (sequence == seen.sequence) continue;
+    seen.sequence = sequence;
+    std::string value = types::to_text(seen.port->type(), seen.port->current());
+    if (value == seen.value) continue;
+    seen.value = std::move(value);
+    changes += (changes.empty() ? "" : ", ") + seen.name + " = " + cut_off(seen.value);
+  }
+  return changes;
+}
+
+}  // namespace armature::replay

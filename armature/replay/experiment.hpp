@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/result.hpp"
+
+namespace armature::replay {
+
+/// Its name in the folder of a run.
+inline constexpr const char* kExperimentFile = "experiment.json";
+
+/// A component library that a run used.
+struct UsedLibrary {
+  std::string name;  ///< as the deployment has it
+  std::string file;
+  std::string hash;  ///< of its content
+};
+
+/// What a run was, so that it can be done again: all that it read, and with which program. What was
+/// done to it while it ran is in `kActsFile`.
+struct Experiment {
+  std::string version;     ///< of Armature
+  std::string folder;      ///< in which the program ran: relative paths begin there
+  std::string deployment;  ///< its file, as it was given
+  std::string application;
+  bool simulated = false;
+  std::vector<std::string> overrides;
+  std::string mode;
+  std::vector<std::string> library_folders;
+  std::vector<UsedLibrary> libraries;
+  std::map<std::string, std::string> texts;  ///< of the deployment and what it includes, by path
+  std::map<std::string, std::string> named;  ///< paths, by the properties that have them
+  std::map<std::string, std::string> files;  ///< that these paths lead to; small texts only
+  std::string outline;                       ///< runner::outline of what ran
+};
+
+/// Of 64 bits, as hexadecimal digits: equal contents have equal hashes.
+std::string hash_text(std::string_view content);
+
+base::Result<void> write_experiment(const std::string& folder, const Experiment& experiment);
+
+/// The error says what the folder of a run has, and what was found.
+base::Result<Experiment> load_experiment(const std::string& folder);
+
+}  // namespace armature::replay

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/replay/folders.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "armature/base/seconds.hpp"
+#include "armature/platform/file.hpp"
+#include "armature/record/mcap_reader.hpp"
+
+namespace armature::replay {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBlackBox = "blackbox-";
+constexpr const char* kSummary = "run.json";
+
+std::vector<fs::path> recordings_in(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".mcap") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+/// Of a black box the component without the time on the wall: `blackbox-AIC1`.
+std::string plain_name(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(kBlackBox)) return name;
+  constexpr std::size_t kTime = sizeof "-2026-11-22T10-20-30" - 1;
+  const std::size_t hour = name.rfind('T');
+  constexpr std::size_t kDate = sizeof "-2026-11-22" - 1;
+  const bool timed =
+      hour != std::string::npos && hour > kDate && name.size() >= hour - kDate + kTime;
+  return timed ? name.substr(0, hour - kDate) : name;
+}
+
+/// Files by their plain names, those of one name in the order in which they were written.
+std::map<std::string, std::vector<fs::path>> by_name(const std::string& folder) {
+  std::map<std::string, std::vector<fs::path>> named;
+  for (const fs::path& file : recordings_in(folder)) named[plain_name(file)].push_back(file);
+  return named;
+}
+
+std::vector<std::string> recorders_in(const std::string& outline) {
+  std::vector<std::string> names;
+  std::string_view rest = outline;
+  constexpr std::string_view kComponent = "component ";
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    const std::size_t model = line.find(" model Reporter ");
+    if (!line.starts_with(kComponent) || model == std::string_view::npos) continue;
+    names.emplace_back(line.substr(kComponent.size(), model - kComponent.size()));
+  }
+  return names;
+}
+
+class FolderComparison {
+ public:
+  FolderComparison(bool complete, const ComparisonOptions& options, base::Diagnostics& diagnostics)
+      : complete_(complete), options_(options), diagnostics_(diagnostics) {}
+
+  void compare_all(const std::string& was, const std::string& is) {
+    const auto recorded = by_name(was);
+    const auto replayed = by_name(is);
+    for (const auto& [name, files] : recorded) {
+      const auto others = replayed.find(name);
+      const std::size_t count = others == replayed.end() ? 0 : others->second.size();
+      for (std::size_t i = 0; i < files.size(); ++i) {
+        if (i < count) {
+          compare_files(files[i], others->second[i]);
+        } else if (complete_) {
+          lacks(files[i], "the replay has none", name);
+        }
+      }
+    }
+    if (!complete_) return;
+    for (const auto& [name, files] : replayed) {
+      const auto others = recorded.find(name);
+      const std::size_t count = others == recorded.end() ? 0 : others->second.size();
+      if (files.size() > count) lacks(files[count], "the recorded run had none", name);
+    }
+  }
+
+  Comparison take() { return std::move(found_); }
+
+ private:
+  void compare_files(const fs::path& was, const fs::path& is) {
+    const auto before = record::load_mcap(was.string(), record::Unclosed::kReadToLastChunk);
+    const auto after = record::load_mcap(is.string(), record::Unclosed::kReadToLastChunk);
+    if (!before) diagnostics_.error({}, before.error());
+    if (!after) diagnostics_.error({}, after.error());
+    if (!before || !after) return;
+    if (!before.value().closed) {
+      diagnostics_.warning({},
+                           "'" + was.string() + "' was cut off; what is whole of it is compared");
+    }
+    found_.add(compare(before.value(), after.value(), options_));
+  }
+
+  /// A black box that only one of them has is a difference: a fault.
+  void lacks(const fs::path& file, const std::string& what, const std::string& name) {
+    if (!std::string_view(name).starts_with(kBlackBox)) {
+      diagnostics_.error({}, "'" + file.string() + "' has no counterpart: " + what);
+      return;
+    }
+    const auto recording = record::load_mcap(file.string(), record::Unclosed::kReadToLastChunk);
+    base::Time time{};
+    if (recording && !recording.value().samples.empty())
+      time = recording.value().samples.back().time;
+    if (time >= options_.until) return;
+    Difference fault{name.substr(kBlackBox.size()), time, 0, "a black box of a fault", what};
+    if (what.find("recorded") != std::string::npos) std::swap(fault.was, fault.is);
+    Comparison only;
+    only.differences.push_back(std::move(fault));
+    found_.add(std::move(only));
+  }
+
+  const bool complete_;
+  const ComparisonOptions& options_;
+  base::Diagnostics& diagnostics_;
+  Comparison found_;
+};
+
+}  // namespace
+
+bool has_recordings(const std::string& folder) { return !recordings_in(folder).empty(); }
+
+Losses losses_of(const std::string& folder, const Experiment& experiment) {
+  const auto text = platform::read_file(folder + '/' + kSummary);
+  if (!text) return {};
+  const auto summary = nlohmann::json::parse(text.value(), nullptr, false);
+  if (!summary.is_object() || !summary.contains("counters")) return {};
+  Losses losses{true, 0};
+  const auto& counters = summary["counters"];
+  for (const std::string& recorder : recorders_in(experiment.outline)) {
+    for (const char* const counter : {".dropped", ".not_written"}) {
+      const auto found = counters.find(recorder + counter);
+      if (found == counters.end() || !found->contains("value")) continue;
+      losses.samples += (*found)["value"].get<std::uint64_t>();
+    }
+  }
+  return losses;
+}
+
+Comparison compare_folders(const std::string& was, const std::string& is, bool complete,
+                           const ComparisonOptions& options, base::Diagnostics& diagnostics) {
+  FolderComparison comparison(complete, options, diagnostics);
+  comparison.compare_all(was, is);
+  return comparison.take();
+}
+
+base::Time end_of_recordings(const std::string& folder) {
+  base::Time end = base::Time::min();
+  for (const fs::path& file : recordings_in(folder)) {
+    const auto recording = record::load_mcap(file.string(), record::Unclosed::kReadToLastChunk);
+    if (!recording) continue;
+    for (const auto& sample : recording.value().samples) end = std::max(end, sample.time);
+  }
+  return end;
+}
+
+base::Result<void> make_place(const std::string& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) return base::Error{"cannot make the folder '" + folder + "': " + failure.message()};
+  const fs::path mark = fs::path(folder) / kReplayFile;
+  if (!fs::exists(mark, failure) && !fs::is_empty(folder, failure)) {
+    return base::Error{
+        "'" + folder +
+        "' has files that no replay has made: name an empty or a new folder with -o"};
+  }
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    if (entry.path().filename() != kReplayFile) fs::remove_all(entry.path(), failure);
+  }
+  return platform::write_file(mark.string(), "{}\n");
+}
+
+base::Result<void> copy_run(const std::string& from, const std::string& to) {
+  std::error_code failure;
+  fs::create_directories(to, failure);
+  std::vector<fs::path> files = recordings_in(from);
+  std::erase_if(
+      files, [](const fs::path& file) { return file.filename().string().starts_with(kBlackBox); });
+  files.push_back(fs::path(from) / kSummary);
+  for (const fs::path& file : files) {
+    if (!fs::exists(file, failure)) continue;
+    fs::copy_file(file, fs::path(to) / file.filename(), fs::copy_options::overwrite_existing,
+                  failure);
+    if (failure) {
+      return base::Error{"cannot copy '" + file.string() + "' to '" + to +
+                         "': " + failure.message()};
+    }
+  }
+  return {};
+}
+
+}  // namespace armature::replay

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a controller in the shadow costs the one that drives: cycles of the driving thread with and
+// without it, in turns, in one process and in real time.
+//
+// usage: shadow_cost WITHOUT.yaml WITH.yaml THREAD LIBRARY_FOLDER [SECONDS_OF_EACH] [NAME=VALUE...]
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "armature/deploy/deployment.hpp"
+#include "armature/exec/application.hpp"
+#include "armature/platform/clock.hpp"
+
+namespace {
+
+using namespace armature;
+
+/// Long enough for a median, short enough that what disturbs the machine disturbs both.
+constexpr std::chrono::seconds kTurn{2};
+
+/// One of the two, with the medians of its turns.
+struct Side {
+  const char* name;
+  std::string file;
+  std::vector<double> medians_us;
+  std::uint64_t cycles = 0;
+  std::uint64_t skipped = 0;
+};
+
+deploy::Deployment load(const std::string& file, const std::string& libraries,
+                        const std::vector<std::string>& overrides) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {libraries};
+  options.document.overrides = overrides;
+  return deploy::load_deployment(file, options);
+}
+
+/// Runs it for a turn; false, and says why, if it does not run.
+bool take_turn(Side& side, const std::string& thread, const std::string& libraries,
+               const std::vector<std::string>& overrides) {
+  deploy::Deployment deployment = load(side.file, libraries, overrides);
+  if (!deployment.ok()) {
+    std::fputs(deployment.diagnostics.to_text().c_str(), stderr);
+    return false;
+  }
+  exec::ApplicationOptions options = std::move(deployment.options);
+  options.realtime = exec::RealtimeMode::kPrefer;
+  exec::Application application(std::move(deployment.blueprint), std::move(options));
+  if (const auto started = application.start(); !started.ok()) {
+    std::fputs(started.to_text().c_str(), stderr);
+    return false;
+  }
+  application.run_for(kTurn);
+  const auto all = application.thread_statistics();
+  application.stop();
+  const auto driving = std::ranges::find(all, thread, &exec::ThreadStatistics::name);
+  if (driving == all.end()) {
+    std::fprintf(stderr, "'%s' has no thread '%s'\n", side.file.c_str(), thread.c_str());
+    return false;
+  }
+  side.medians_us.push_back(static_cast<double>(driving->cycle_ticks.percentile(0.5)) *
+                            platform::tick_period_ns() * 1e-3);
+  side.cycles += driving->cycles_run;
+  side.skipped += driving->cycles_skipped;
+  return true;
+}
+
+double median_of(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 5) {
+    std::fputs(
+        "usage: shadow_cost WITHOUT.yaml WITH.yaml THREAD LIBRARY_FOLDER [SECONDS_OF_EACH] "
+        "[NAME=VALUE...]\n",
+        stderr);
+    return 2;
+  }
+  Side sides[] = {{"without the shadow", words[1], {}}, {"with the shadow", words[2], {}}};
+  const std::string thread = words[3];
+  const int seconds = count > 5 ? std::atoi(words[5]) : 60;
+  const std::vector<std::string> overrides(words + std::min(count, 6), words + count);
+  const int turns = std::max(1, seconds / static_cast<int>(kTurn.count()));
+  for (int turn = 0; turn < turns; ++turn) {
+    // Who comes first changes, too.
+    for (int i = 0; i < 2; ++i) {
+      if (!take_turn(sides[(turn + i) % 2], thread, words[4], overrides)) return 1;
+    }
+  }
+  std::vector<double> ratios;
+  for (int turn = 0; turn < turns; ++turn) {
+    const auto place = static_cast<std::size_t>(turn);
+    ratios.push_back(sides[1].medians_us[place] / sides[0].medians_us[place]);
+  }
+  for (const Side& side : sides) {
+    std::printf(
+        "%-18s  median cycle of %s %8.2f us, of %d turns of %d s; %llu cycles run, %llu skipped\n",
+        side.name, thread.c_str(), median_of(side.medians_us), turns,
+        static_cast<int>(kTurn.count()), static_cast<unsigned long long>(side.cycles),
+        static_cast<unsigned long long>(side.skipped));
+  }
+  std::printf(
+      "the shadow costs %+.2f %% (median of the ratios of neighbouring turns), bound 2 %%\n",
+      100.0 * (median_of(ratios) - 1.0));
+  return 0;
+}

@@ -1,0 +1,341 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Short runs of Janus, the WAM and the rover, recorded and replayed with `armature replay`.
+
+usage: replay_test.py PROGRAM ROBOTS_FOLDER LIBRARY_FOLDER
+"""
+
+import json
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PROGRAM, ROBOTS, LIBRARIES = sys.argv[1:4]
+EQUAL = re.compile(r"equal to the bit: (\d+) samples of (\d+) ports and properties\n")
+
+# What a person would do: arms, moves, and sets a property on the way.
+JANUS = """
+wait(0.1)
+assert(wait(Arming:arm()))
+local motion = Generator:moveTo(array(0.5, 0.3), 1)
+wait(0.5)
+PID1.Kp = 410
+assert(wait(motion))
+wait(0.2)
+stop()
+"""
+# Somebody switches a motor off while its joint moves.
+SWITCHED_OFF = """
+wait(0.1)
+assert(wait(Arming:arm()))
+local motion = Generator:moveTo(array(0.5, 0.3), 1)
+wait(0.3)
+Cards:commandCard(1, 2)
+wait(2)
+stop()
+"""
+WAM_ESTOP = """
+wait(1)
+assert(wait(Arming:arm()))
+Generator:moveTo(array(0.3, -0.5, 0.2, 1.5, 0.0, 0.2, 0.0), 2)
+wait(0.6)
+WAM:estop()
+wait(0.5)
+stop()
+"""
+ROVER = """
+wait(0.1)
+assert(wait(Arming:arm()))
+Phase.Value = 1
+wait(0.5)
+Rover:put(Rover.Place.x, Rover.Place.y, Rover.Place.heading + 0.3)
+wait(1)
+stop()
+"""
+
+def armature(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120,
+                          stdin=subprocess.DEVNULL, **options)
+
+
+def load(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def change(path, what, by):
+    """Of a text; it has to have what is changed."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    assert what in text, f"{path} has no {what}"
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace(what, by))
+
+
+def records_of(mcap, begin, end):
+    """(kind, begin of the content, end of it) of each record of an MCAP file."""
+    place = begin
+    while place < end:
+        length = struct.unpack_from("<Q", mcap, place + 1)[0]
+        yield mcap[place], place + 9, place + 9 + length
+        place += 9 + length
+
+
+def mutate(path, channel):
+    """Changes a digit of a number of the channel, in the middle of the recording, and mends the
+    checksums. Returns the time [ns] and number of the sample, and the value as it is now."""
+    with open(path, "rb") as file:
+        mcap = bytearray(file.read())
+    begin, end = 8, len(mcap) - 8
+    chunks = [(a, b) for kind, a, b in records_of(mcap, begin, end) if kind == 0x06]
+    ids = {}
+    found = []
+    for a, b in chunks:
+        size = struct.unpack_from("<I", mcap, a + 28)[0]  # of the name of the compression
+        inner = a + 28 + 4 + size + 8
+        for kind, c, d in records_of(mcap, inner, b):
+            if kind == 0x04:
+                number, _, length = struct.unpack_from("<HHI", mcap, c)
+                ids[number] = mcap[c + 8:c + 8 + length].decode()
+            if kind == 0x05 and ids.get(struct.unpack_from("<H", mcap, c)[0]) == channel:
+                found.append((a, inner, b, c, d))
+    for kind, c, d in records_of(mcap, begin, end):
+        if kind == 0x04:
+            number, _, length = struct.unpack_from("<HHI", mcap, c)
+            ids[number] = mcap[c + 8:c + 8 + length].decode()
+    if not found:  # channels stand before the chunks
+        for a, b in chunks:
+            size = struct.unpack_from("<I", mcap, a + 28)[0]
+            inner = a + 28 + 4 + size + 8
+            for kind, c, d in records_of(mcap, inner, b):
+                if kind == 0x05 and ids.get(struct.unpack_from("<H", mcap, c)[0]) == channel:
+                    found.append((a, inner, b, c, d))
+    a, inner, b, c, d = found[len(found) // 2]
+    sequence, time_ns = struct.unpack_from("<IQ", mcap, c + 2)
+    text = mcap[c + 22:d]
+    digit = max(i for i, byte in enumerate(text) if chr(byte).isdigit())
+    mcap[c + 22 + digit] = ord("1") if text[digit] != ord("1") else ord("2")
+    struct.pack_into("<I", mcap, a + 24, zlib.crc32(mcap[inner:b]))
+    for kind, c2, _ in records_of(mcap, begin, end):
+        if kind == 0x0F and struct.unpack_from("<I", mcap, c2)[0] != 0:
+            struct.pack_into("<I", mcap, c2, zlib.crc32(mcap[:c2 - 9]))
+    with open(path, "wb") as file:
+        file.write(mcap)
+    return time_ns, sequence, mcap[c + 22:d].decode()
+
+
+class Recorded(unittest.TestCase):
+    """A run of a robot; each test has its own copy."""
+
+    kept = {}
+
+    @classmethod
+    def setUpClass(cls):
+        cls.root = tempfile.mkdtemp()
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.root)
+
+    def run_of(self, deployment, script, name, *arguments, code=0):
+        folder = f"{self.root}/{name}"
+        if not os.path.exists(folder):
+            with open(f"{self.root}/{name}.lua", "w", encoding="utf-8") as file:
+                file.write(script)
+            done = armature("run", f"{ROBOTS}/{deployment}", "-L", LIBRARIES, "--sim", "--script",
+                            f"{self.root}/{name}.lua", "--out", folder, *arguments)
+            self.assertEqual(done.returncode, code, done.stderr)
+        copy = f"{self.root}/{name}_of_{self.id().split('.')[-1]}"
+        shutil.copytree(folder, copy)
+        return copy
+
+    def replay(self, folder, *arguments, code=0):
+        done = armature("replay", folder, "-L", LIBRARIES, *arguments)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def expect_equal(self, folder, least):
+        text = self.replay(folder).stdout
+        self.assertRegex(text, EQUAL)
+        self.assertGreater(int(EQUAL.match(text).group(1)), least)
+
+
+class Janus(Recorded):
+    def recorded(self):
+        return self.run_of("janus/demo/pid.yaml", JANUS, "janus")
+
+    def test_is_equal_to_the_bit(self):
+        folder = self.recorded()
+        with open(f"{folder}/acts.jsonl", encoding="utf-8") as file:
+            acts = [json.loads(line) for line in file]
+        self.assertEqual([act["act"] for act in acts],
+                         ["begin", "begin", "set", "before_stop", "end"])
+        self.expect_equal(folder, 1000)
+
+    def test_a_replay_can_be_replayed_from_another_folder_and_without_its_script(self):
+        folder = self.recorded()
+        os.remove(f"{self.root}/janus.lua")
+        done = armature("replay", os.path.basename(folder), "-L", LIBRARIES, cwd=self.root)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_changed_sample_is_the_first_difference(self):
+        folder = self.recorded()
+        time_ns, sequence, value = mutate(f"{folder}/janus.mcap", "PID1.Out")
+        told = self.replay(folder, code=5).stdout
+        self.assertIn(f"sample {sequence} of component PID1, port Out", told)
+        self.assertIn(f"was {value}", told)
+        self.assertIn(f"first difference at {time_ns // 1000000} ms", told.replace("1 s", "1000 ms"))
+        before = f"{(time_ns - 20_000_000) / 1e9} s"
+        self.assertRegex(self.replay(folder, "--until", before).stdout, EQUAL)
+
+    def test_what_is_upstream_is_told(self):
+        folder = self.recorded()
+        change(f"{folder}/experiment.json", '"set": []', '"set": ["PID1.Ki=21"]')
+        told = self.replay(folder, code=5)
+        self.assertIn("of component PID1, port Out", told.stdout)
+        self.assertIn("the deployment is not what it was: component PID1: '  double Ki = 20' was "
+                      "recorded, '  double Ki = 21' is here", told.stderr)
+
+    def test_what_if_has_both_on_one_page(self):
+        folder = self.recorded()
+        told = self.replay(folder, "--set", "PID1.Kp=200", "--set", "PID2.Kp=200").stdout
+        self.assertIn(f"{folder}/what-if/report.html", told)
+        figures = load(f"{folder}/what-if/report.json")["controllers"]
+        self.assertEqual(sorted(figures), ["was", "what-if"])
+        was, is_now = (figures[name]["joints"][0]["iae"] for name in ("was", "what-if"))
+        self.assertGreater(is_now, 1.01 * was)
+        with open(f"{folder}/what-if/report.html", encoding="utf-8") as page:
+            self.assertIn('"what_if":{"changes":["PID1.Kp=200","PID2.Kp=200"]}', page.read())
+
+    def test_what_if_with_a_file(self):
+        folder = self.recorded()
+        with open(f"{folder}/other.yaml", "w", encoding="utf-8") as file:
+            file.write("components:\n  PID{1..2}: {override: true, properties: {Kp: 300}}\n")
+        self.replay(folder, "--with", f"{folder}/other.yaml", "-o", f"{folder}/other")
+        experiment = load(f"{folder}/other/report.json")["controllers"]
+        self.assertNotEqual(experiment["was"], experiment["what-if"])
+
+    def test_steps_and_breaks_are_lines(self):
+        folder = self.recorded()
+        told = self.replay(folder, "--break", "Joint1.Position > 0.2", "--break",
+                           "PID1.Kp == 410").stdout.splitlines()
+        breaks = [line for line in told if line.startswith("break at ")]
+        self.assertEqual(len(breaks), 2, told)
+        self.assertTrue(any("Joint1.Position = 0.20" in line for line in breaks), breaks)
+        steps = self.replay(folder, "--step", "--until", "0.2s").stdout.splitlines()
+        self.assertTrue(any(re.match(r"50 ms  .*Sampler.SamplePort = 5\b", line) for line in steps), steps)
+        wrong = self.replay(folder, "--break", "Joint1.Positon > 1", code=1).stderr
+        self.assertIn("did you mean 'Position'?", wrong)
+
+    def test_a_fault_is_replayed_with_its_black_box(self):
+        folder = self.run_of("janus/demo/pid.yaml", SWITCHED_OFF, "switched_off", code=1)
+        boxes = [name for name in os.listdir(folder) if name.startswith("blackbox-")]
+        self.assertTrue(boxes)
+        self.expect_equal(folder, 1000)
+        mutate(f"{folder}/{boxes[0]}", "PID1.Out")
+        self.assertIn("of component PID1, port Out", self.replay(folder, code=5).stdout)
+
+    def test_dropped_samples_are_not_equal(self):
+        folder = self.recorded()
+        summary = load(f"{folder}/run.json")
+        summary["counters"]["Reporter.dropped"] = {"value": 3, "doc": ""}
+        with open(f"{folder}/run.json", "w", encoding="utf-8") as file:
+            json.dump(summary, file)
+        self.assertIn("3 samples are missing in the recording", self.replay(folder, code=6).stdout)
+
+    def test_a_changed_library_is_told(self):
+        folder = self.recorded()
+        experiment = load(f"{folder}/experiment.json")
+        for library in experiment["libraries"]:
+            library["hash"] = "0" * 16
+        with open(f"{folder}/experiment.json", "w", encoding="utf-8") as file:
+            json.dump(experiment, file)
+        told = self.replay(folder)
+        self.assertIn("component library 'janus'", told.stderr)
+        self.assertIn("is not the one that was recorded", told.stderr)
+
+    def test_a_missing_port_is_named(self):
+        folder = self.recorded()
+        experiment = load(f"{folder}/experiment.json")
+        for path, text in experiment["texts"].items():
+            experiment["texts"][path] = text.replace('"PID*.Ref", ', "")
+        with open(f"{folder}/experiment.json", "w", encoding="utf-8") as file:
+            json.dump(experiment, file)
+        self.assertIn("'PID1.Ref' was recorded, but is not recorded now",
+                      self.replay(folder, code=1).stderr)
+
+    def test_a_file_that_is_gone_is_kept_in_the_experiment(self):
+        folder = self.recorded()
+        change(f"{folder}/experiment.json", "janus.urdf", "gone.urdf")
+        self.assertIn("is not what it was when the run was recorded", self.replay(folder).stderr)
+
+    def test_a_run_in_real_time_is_refused(self):
+        folder = f"{self.root}/real"
+        done = armature("run", f"{ROBOTS}/janus/demo/pid.yaml", "-L", LIBRARIES, "--for", "0.2s",
+                        "--realtime", "off", "--out", folder)
+        self.assertIn(done.returncode, (0, 4), done.stderr)  # 4: the machine is busy
+        self.assertFalse(os.path.exists(f"{folder}/acts.jsonl"))
+        self.assertIn("was recorded in real time", self.replay(folder, code=1).stderr)
+
+    def test_wrong_folders_are_refused(self):
+        self.assertIn("is no folder", self.replay(f"{self.root}/nowhere", code=1).stderr)
+        empty = tempfile.mkdtemp(dir=self.root)
+        self.assertIn("has no experiment.json", self.replay(empty, code=1).stderr)
+        folder = self.recorded()
+        self.assertIn("has files that no replay has made",
+                      self.replay(folder, "-o", folder, code=1).stderr)
+        os.remove(f"{folder}/janus.mcap")
+        self.assertIn("has no recording", self.replay(folder, code=1).stderr)
+
+
+class Wam(Recorded):
+    def test_its_estop_is_replayed_with_its_black_box(self):
+        folder = self.run_of("wam/demo/npid.yaml", WAM_ESTOP, "wam", code=1)
+        self.assertTrue(any(name.startswith("blackbox-") for name in os.listdir(folder)))
+        self.expect_equal(folder, 500)
+
+
+class Rover(Recorded):
+    def test_is_equal_to_the_bit(self):
+        self.expect_equal(self.run_of("rover/demo/p.yaml", ROVER, "rover"), 50)
+
+
+class Shadow(unittest.TestCase):
+    EXAMPLE = os.path.join(os.path.dirname(ROBOTS.rstrip("/")), "examples", "14_shadow",
+                           "shadow.yaml")
+
+    def check(self, more, code):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(f"{folder}/more.yaml", "w", encoding="utf-8") as file:
+                file.write(f"include: {self.EXAMPLE}\n{more}")
+            done = armature("check", f"{folder}/more.yaml", "-L", LIBRARIES)
+            self.assertEqual(done.returncode, code, done.stderr)
+            return done.stderr
+
+    def test_that_only_looks_on_passes_the_check(self):
+        self.check("", 0)
+
+    def test_that_is_used_by_who_is_none_is_refused(self):
+        shown = "components: {Show: {model: Number, %sproperties: {Unit: V}}}\n"
+        connected = "connections: [Deviations.Largest -> Show.Value]\n"
+        told = self.check(shown % "activity: triggered, " + connected, 1)
+        self.assertIn("the shadow 'Deviations' writes 'Show.Value', which is not of a shadow", told)
+        self.check(shown % "shadow: true, " + connected, 0)
+
+    def test_whose_fault_would_stop_all_is_refused(self):
+        self.assertIn("would stop everything if it faulted", self.check("on_fault: stop_all\n", 1))
+
+    def test_that_takes_the_time_of_who_drives_is_refused(self):
+        told = self.check("components:\n  Shadow: {override: true, activity: "
+                          "{triggered: true, priority: 85}}\n", 1)
+        self.assertIn("the shadow 'Shadow' is as urgent as the thread", told)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
