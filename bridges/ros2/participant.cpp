@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "bridges/ros2/internal/dds.hpp"
+#include "bridges/ros2/internal/loopback_sockets.hpp"
 
 namespace armature::ros2 {
 namespace {
@@ -138,6 +139,13 @@ base::Result<std::shared_ptr<Participant>> Participant::open(const Network& netw
   if (domain < 0) {
     return base::Error{"DDS cannot begin on the interface '" + network.interface +
                        "': " + why(domain) + " (ip link shows the interfaces)"};
+  }
+  if (is_loopback(network.interface)) {
+    // Before there is a participant: what came so far was for nobody.
+    if (std::string wrong = internal::keep_on_loopback(network.domain); !wrong.empty()) {
+      dds_delete(domain);
+      return base::Error{wrong};
+    }
   }
   const QosPtr qos(dds_create_qos());
   // By this ROS 2 takes a participant for one of its own.
