@@ -8,8 +8,8 @@
 #include "armature/base/seconds.hpp"
 #include "armature/component/host.hpp"
 #include "armature/rt/guard.hpp"
-#include "bridges/ros2/internal/effort_check.hpp"
 #include "bridges/ros2/internal/own_thread.hpp"
+#include "bridges/ros2/internal/reach_check.hpp"
 
 namespace armature::ros2 {
 
@@ -133,7 +133,13 @@ void Publisher::tell() {
   lost_.write(lost_count_);
 }
 
-void Subscriber::on_check(component::Check& check) const { internal::check_efforts(*this, check); }
+void Subscriber::on_check(component::Check& check) const {
+  expect_arming(check, internal::check_reach(*this, written_input(check), check));
+}
+
+const component::InputPortBase* Subscriber::written_input(const component::Check& /*check*/) const {
+  return nullptr;
+}
 
 void Subscriber::begin() {
   received_count_ = refused_count_ = 0;
@@ -151,10 +157,24 @@ void Subscriber::deafen() {
 
 bool Subscriber::is_silent() const { return time() - heard_at_ > base::from_seconds(max_silence_); }
 
-void Subscriber::expect_arming(component::Check& check) const {
-  if (check.source_of(armed_) != nullptr && check.source_of(stopped_) != nullptr) return;
-  check.error("it is not told when the operator arms or stops the robot, and would go on by itself",
-              "add Arming to its peers");
+/// @param commanded  components that move the robot as this one says
+void Subscriber::expect_arming(component::Check& check,
+                               const std::vector<const Component*>& commanded) const {
+  if (commanded.empty() && !moves_robots()) return;
+  const component::EventBase* const arms = check.source_of(armed_);
+  const component::EventBase* const stops = check.source_of(stopped_);
+  if (arms == nullptr || check.source_of(disarmed_) == nullptr || stops == nullptr) {
+    return check.error(
+        "it is not told when the operator arms or stops the robot, and would go on by itself",
+        "add Arming to its peers");
+  }
+  for (const Component* each : commanded) {
+    const Component& brakes = *internal::brakes(*each, check);
+    if (&brakes == &stops->owner()) continue;
+    check.error("it commands '" + each->name() + "', which '" + brakes.name() +
+                    "' stops, and is told of '" + stops->owner().name() + "'",
+                "give both the same Arming as a peer");
+  }
 }
 
 bool Subscriber::was_held_up() {

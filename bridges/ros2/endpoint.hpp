@@ -90,8 +90,9 @@ class Publisher : public Endpoint {
 /// armed, stopped or disarmed the robot, nor after a start, before there was silence for
 /// `max_silence`.
 ///
-/// What its outputs lead to is checked: an effort only behind a component that takes commands, such
-/// as a generator of motions or a chassis, which keeps the limits.
+/// What it leads to is checked: an effort only behind a component that takes commands and brakes at
+/// the operator's stop, such as a generator of motions or a chassis, which keeps the limits. Where
+/// it leads to one of these, it must be told of the same operator: it needs Arming among its peers.
 class Subscriber : public Endpoint {
  public:
   using Endpoint::Endpoint;
@@ -107,8 +108,10 @@ class Subscriber : public Endpoint {
   bool is_deaf() const { return deaf_; }
   /// There was no message for `max_silence`.
   bool is_silent() const;
-  /// Refuses a deployment in which it is not told what the operator does.
-  void expect_arming(component::Check& check) const;
+  /// An input that it writes without a connection; nullptr: none.
+  virtual const component::InputPortBase* written_input(const component::Check& check) const;
+  /// It commands motions, whatever it is connected to.
+  virtual bool moves_robots() const { return false; }
 
   component::Property<double> max_silence_{
       this, "max_silence",
@@ -138,6 +141,8 @@ class Subscriber : public Endpoint {
                                                  "messages since the start that were obeyed"};
   component::OutputPort<std::uint64_t> refusals_{this, "Refused",
                                                  "messages since the start that were not"};
+  void expect_arming(component::Check& check,
+                     const std::vector<const component::Component*>& commanded) const;
   bool was_held_up();
 
   std::uint64_t received_count_ = 0;

@@ -36,7 +36,6 @@ Trajectory trajectory_of(const trajectory_msgs_msg_dds__JointTrajectory_& messag
 
 void JointTrajectory::on_check(component::Check& check) const {
   Subscriber::on_check(check);
-  expect_arming(check);
   const auto* const plays = check.target_of(play_path_);
   if (plays == nullptr) return;  // which is reported
   for (const component::OutputPortBase* const writer : check.writers_of(desired_)) {

@@ -35,6 +35,7 @@ class JointTrajectory final : public Subscriber {
   using Vector = std::vector<double>;
 
   void on_check(component::Check& check) const override;
+  bool moves_robots() const override { return true; }
   std::vector<Objection> objections(const Components& components) const override;
   std::string open(const component::Surroundings& surroundings) override;
   void close() override { reader_.reset(); }
