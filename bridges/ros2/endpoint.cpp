@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/component/host.hpp"
 #include "armature/rt/guard.hpp"
 #include "bridges/ros2/internal/own_thread.hpp"
@@ -144,15 +145,26 @@ const component::InputPortBase* Subscriber::written_input(const component::Check
 void Subscriber::begin() {
   received_count_ = refused_count_ = 0;
   refuses_ = false;
-  updated_at_ = time();
+  heard_at_ = updated_at_ = time();
+  disarmed_now_ = face(armed_).source() != nullptr;
   deafen();
   received_.write(0);
   refusals_.write(0);
 }
 
+void Subscriber::arm() {
+  disarmed_now_ = false;
+  deafen();
+}
+
+void Subscriber::disarm() {
+  disarmed_now_ = true;
+  deafen();
+}
+
 void Subscriber::deafen() {
-  deaf_ = true;
-  heard_at_ = time();
+  deafened_ = true;
+  deaf_until_ = time() + base::from_seconds(max_silence_);
 }
 
 bool Subscriber::is_silent() const { return time() - heard_at_ > base::from_seconds(max_silence_); }
@@ -184,18 +196,27 @@ bool Subscriber::was_held_up() {
 
 void Subscriber::receive(Reader& reader, const std::function<std::string(const void*)>& obey) {
   const bool too_old = was_held_up();
-  reader.take(kMostInAnUpdate, [&](const void* sample) {
-    if (deaf_) heard_at_ = time();
-    const std::string why = deaf_     ? "nothing goes on by itself: first nobody must send for "
-                                        "max_silence"
-                            : too_old ? "it waited while the thread of this component was held up"
-                                      : obey(sample);
+  deaf_ = std::exchange(deafened_, false) || time() < deaf_until_;
+  if (deaf_) {
+    for (const Sender& each : reader.senders()) ignored_.insert(each);
+  }
+  reader.take(kMostInAnUpdate, [&](const void* sample, const Sender* sender) {
+    std::string why = objection_to(sender);
+    if (why.empty() && too_old) why = "it waited while the thread of this component was held up";
+    if (why.empty()) why = obey(sample);
     if (!why.empty()) return refuse(why);
     heard_at_ = time();
     refuses_ = false;
     received_.write(++received_count_);
   });
-  if (is_silent()) deaf_ = false;
+}
+
+std::string Subscriber::objection_to(const Sender* sender) {
+  if (sender == nullptr) return "who sent it has gone already";
+  if (disarmed_now_) return "the robot is not armed";
+  if (!ignored_.contains(*sender)) return {};
+  return "nothing goes on by itself: its sender was there when the robot was armed or stopped, or "
+         "this component started, and must begin anew";
 }
 
 void Subscriber::refuse(std::string_view why) {

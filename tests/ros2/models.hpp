@@ -62,6 +62,7 @@ class Operator final : public component::Component {
  private:
   void arm() { arm_.raise(); }
   void stop_robot() { stop_.raise(); }
+  void disarm_robot() { disarm_.raise(); }
 
   component::Event<> arm_{this, "Arm", "armed", component::occasional};
   component::Event<> disarm_{this, "Disarm", "disarmed", component::occasional};
@@ -70,6 +71,8 @@ class Operator final : public component::Component {
                                        component::in_own_thread};
   component::Operation<void()> do_stop_{this, "stop", component::serve<&Operator::stop_robot>,
                                         "stops", component::in_own_thread};
+  component::Operation<void()> do_disarm_{this, "disarm", component::serve<&Operator::disarm_robot>,
+                                          "disarms", component::in_own_thread};
 };
 
 /// Passes a number on. It takes commands, but no motion is one of them: it keeps no limits.
