@@ -58,6 +58,18 @@ Rover:put(Rover.Place.x, Rover.Place.y, Rover.Place.heading + 0.3)
 wait(1)
 stop()
 """
+# The encoder of a wheel falls silent while the rover turns.
+ROVER_SILENT = """
+wait(0.1)
+assert(wait(Arming:arm()))
+wait(0.5)
+Rover:put(Rover.Place.x, Rover.Place.y, Rover.Place.heading + 0.3)
+wait(0.3)
+Rover.SilentEncoder = 1
+wait(1)
+stop()
+"""
+
 
 def armature(*arguments, **options):
     return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120,
@@ -304,6 +316,14 @@ class Wam(Recorded):
 class Rover(Recorded):
     def test_is_equal_to_the_bit(self):
         self.expect_equal(self.run_of("rover/demo/p.yaml", ROVER, "rover"), 50)
+
+    def test_a_silent_encoder_is_replayed_with_its_black_box(self):
+        folder = self.run_of("rover/demo/p.yaml", ROVER_SILENT, "silent", code=1)
+        boxes = [name for name in os.listdir(folder) if name.startswith("blackbox-")]
+        self.assertTrue(boxes)
+        self.expect_equal(folder, 50)
+        mutate(f"{folder}/{boxes[0]}", "Chassis.Drive.SpeedLeft")
+        self.assertIn("Chassis.Drive, port SpeedLeft", self.replay(folder, code=5).stdout)
 
 
 class Shadow(unittest.TestCase):
