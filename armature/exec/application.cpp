@@ -170,7 +170,7 @@ base::Diagnostics Application::stop() {
 
 void Application::begin_anew() {
   Parts& all = *parts_;
-  all.health.begin_anew();
+  all.health.begin_anew(all.blueprint);
   all.connections.declare_reactions();
   all.engines.clear();
   all.engines = internal::make_engines(
