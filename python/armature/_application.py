@@ -63,6 +63,11 @@ class Application(Face):
         """Why the last stretch of time has ended; TIME_UP before the first one."""
         return RunEnd(self._simulation.last_end)
 
+    @property
+    def end_reason(self) -> str:
+        """Who has ended time before it was up, by a fault or a reaction, and when; empty: nobody."""
+        return _what_ended(self._simulation) if self.last_end in _ENDS_OF_TIME else ""
+
     def run_for(self, duration: float | str) -> RunEnd:
         """Lets so much time pass: seconds, or a text with a unit, `"60 s"`. Other threads of Python
         run meanwhile, and Ctrl-C ends it with a KeyboardInterrupt between two instants."""
@@ -118,13 +123,17 @@ class Application(Face):
 def _waiting_in(simulation: _native.Simulation) -> Wait:
     def wait(condition: Callable[[], bool], limit: float) -> bool:
         end = RunEnd(simulation.run_for(limit, condition))
-        if end in (RunEnd.FAULTED, RunEnd.STOPPED_BY_REACTION):
-            raise StoodStill(what_ended(simulation))
+        if end in _ENDS_OF_TIME:
+            raise StoodStill(_what_ended(simulation))
         return end is RunEnd.CONDITION_MET
     return wait
 
 
-def what_ended(simulation: _native.Simulation) -> str:
+# No more of it passes then.
+_ENDS_OF_TIME = (RunEnd.FAULTED, RunEnd.STOPPED_BY_REACTION)
+
+
+def _what_ended(simulation: _native.Simulation) -> str:
     """Of an application that faulted or was stopped by a reaction: when, and who is why."""
     # Whoever a reaction has stopped is in no fault, and has a reason.
     reasons = simulation.faults() or {one.name: one.reason for one in simulation.components() if one.reason}
