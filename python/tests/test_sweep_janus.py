@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sweeps of a real deployment: the head of Janus, simulated."""
+import importlib.util
 import os
 import re
 import signal
@@ -14,7 +15,7 @@ from sweep_checks import bits
 
 import armature
 from armature import author
-from armature.sweeps import Following, JournalError, Pool
+from armature.sweeps import Following, JournalError, Pool, Results, Run
 from armature.sweeps.experiment import Simulated
 from armature.sweeps.run import Task, run_task
 
@@ -159,6 +160,7 @@ def test_a_recorded_run_leaves_its_recording_its_point_and_a_report(tmp_path):
     assert {"janus.mcap", "point.json"} <= {file.name for file in folder.iterdir()}
     assert '"PID1.Kp": 200.0' in (folder / "point.json").read_text()
     if (Path(armature.__file__).parents[4] / "bin/armature").exists():
+        assert '"title":"000000"' in (folder / "report.html").read_text()
         assert '"report":"runs/000000/report.html"' in (tmp_path / "sweep.html").read_text()
 
 
@@ -276,3 +278,18 @@ def test_what_the_page_of_sweeps_begins_with_runs(tmp_path, monkeypatch, capsys)
     assert lines[0].split() == ["run", "PID1.Kp", "PID1.Kd", "iae"]
     assert lines[-1] == "6 runs: 6 done"
     assert (tmp_path / "sweep/sweep.html").exists()
+
+
+def test_tuning_compares_gains_on_heads_whose_runs_are_done(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("scipy")
+    path = JANUS.parents[1] / "python/examples/tune_janus.py"
+    spec = importlib.util.spec_from_file_location("tune_janus", path)
+    tune_janus = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(tune_janus)
+    good = {"iae": 0.5, "iae_1": 0.25, "iae_2": 0.25, "largest": 0.1}
+    runs = [Run(i, {}, "done", {**good, "iae": 1.0 - 0.1 * i}, "") for i in range(5)]
+    runs.append(Run(5, {}, "failed", {}, "Faulted: Joint1"))
+    monkeypatch.setattr(armature, "sweep", lambda *arguments, **options: Results(runs))
+    share = tune_janus.robustness(tune_janus.PAPERS_GAINS, tmp_path, {})
+    assert share == [pytest.approx(0.9 / 1.0), pytest.approx(0.7 / 0.8)]
+    assert "failed: Faulted: Joint1" in capsys.readouterr().out

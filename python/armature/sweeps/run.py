@@ -31,6 +31,9 @@ LOST = "lost"
 #: What results say of a run beside its parameters and metrics, which have other names.
 OWN_COLUMNS = ("run", "number", "outcome", "reason", "seconds", "worker")
 
+#: Beside the folders of runs: those of runs that are under way, or were cut off.
+PARTIAL = "partial"
+
 Metrics = Mapping[str, float]
 #: Runs one point: the point, and the folder for what it leaves (None: it leaves nothing).
 RunPoint = Callable[[Point, Path | None], Metrics]
@@ -93,13 +96,13 @@ def _outcome_of(run_point: RunPoint, task: Task) -> tuple[str, dict[str, float],
 
 @contextlib.contextmanager
 def _folder_of(task: Task) -> Iterator[Path | None]:
-    """For what the run leaves. It gets its name when the run has ended: one that was cut off has none.
+    """For what the run leaves. It gets to its place when the run has ended: what was cut off has none.
     A run that was refused leaves nothing."""
     if task.folder is None:
         yield None
         return
     folder = Path(task.folder)
-    partial = folder.with_name(folder.name + ".partial")
+    partial = folder.parent / PARTIAL / folder.name  # by whose name reports are called
     shutil.rmtree(partial, ignore_errors=True)
     partial.mkdir(parents=True)
     try:
@@ -108,12 +111,12 @@ def _folder_of(task: Task) -> Iterator[Path | None]:
         shutil.rmtree(partial)
         raise
     except Exception:
-        _rename(partial, folder)
+        _move(partial, folder)
         raise
-    _rename(partial, folder)
+    _move(partial, folder)
 
 
-def _rename(partial: Path, folder: Path) -> None:
+def _move(partial: Path, folder: Path) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     partial.rename(folder)
 

@@ -16,7 +16,7 @@ from .points import Point, PointsError, Value, listed
 from .pool import Pool
 from .progress import Progress
 from .results import Effort, Results, run_folder
-from .run import OWN_COLUMNS, REFUSED, Run, RunPoint, Task
+from .run import OWN_COLUMNS, PARTIAL, REFUSED, Run, RunPoint, Task
 
 Parameters = Mapping[str, Sequence[Value]] | Iterable[Mapping[str, Value]]
 
@@ -207,6 +207,8 @@ class _Plan:
         """The results of the points that were asked for; the folder shows all that it has."""
         effort = Effort(wall_s, workers, sum(run.seconds for run in self._new), len(self._new))
         if self.journal:
+            with contextlib.suppress(OSError):  # it has runs that were cut off
+                (self.journal.folder / run_folder(0)).with_name(PARTIAL).rmdir()
             whole = self._results(self.journal.runs, effort)
             whole.to_csv(self.journal.folder / "runs.csv")
             whole.page(self.journal.folder / "sweep.html")
