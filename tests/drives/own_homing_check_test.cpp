@@ -110,6 +110,15 @@ TEST(HomingCheck, RefusesNumbersThatCannotBe) {
   }
 }
 
+TEST(HomingCheck, WarnsOfOneThatArmsWhereNobodyKnows) {
+  const deploy::Deployment loaded =
+      load_arm("torque", {"Joint1.HomingMethod=here", "Joint1.HomePosition=0.5 rad"});
+  EXPECT_TRUE(loaded.ok()) << loaded.diagnostics.to_text();
+  EXPECT_THAT(loaded.diagnostics.to_text(),
+              HasSubstr("HomingRequired is not set, and 'Drive1' counts from where it was switched "
+                        "on: it can be armed at a position that nobody knows"));
+}
+
 TEST(HomingCheck, RefusesContradictions) {
   EXPECT_THAT(refusal("torque", {"Joint1.HomingMethod=drive"}),
               HasSubstr("is given, and HomingMethod is 'drive'"));

@@ -185,6 +185,14 @@ void HomingProperties::check(component::Check& check) const {
   const JointHardware* const hardware = hardware_of(owner_, check);
   is_of_absolute_sensor_ =
       hardware != nullptr && hardware->sensor() == JointHardware::Sensor::kAbsolute;
+  const bool counts = hardware != nullptr && hardware->sensor() == JointHardware::Sensor::kCounting;
+  if (counts && method() != HomingMethod::kDrive && !joint_->homing_required) {
+    check.warning("HomingMethod is " + get().method + ", HomingRequired is not set, and '" +
+                      hardware->name() +
+                      "' counts from where it was switched on: it can be armed at a position that "
+                      "nobody knows",
+                  "set HomingRequired: true");
+  }
   if (!moves()) return;
   if (hardware == nullptr) {
     return check.error("HomingMethod is " + get().method +

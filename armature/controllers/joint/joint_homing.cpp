@@ -158,7 +158,7 @@ Outcome Joint::begin_by_itself() {
 /// From now on nobody knows where it is.
 bool Joint::begin_search() {
   homed_.assign(false);
-  homing_failed_ = true;
+  unknown_ = Unknown::kBegunToHome;
   const double ratio =
       std::abs(sensor_ratio_);  // an effort of the joint is that of its motor by it
   const double most = own_.most_effort() * ratio;
@@ -250,7 +250,8 @@ void Joint::be_at(double position) {
   const double by = position - measured_.position;
   measured_.position = position;
   absolute_->shift(by);
-  homing_failed_ = false;
+  unknown_ = Unknown::kNothing;
+  is_found_ = true;
   kept_.be_sure();
   homed_.assign(true);
   homed_now_ = true;
