@@ -32,6 +32,8 @@ constexpr double kFastest = 0.5;
 /// Of ArmingMotion: shorter ways are not told from standing.
 constexpr double kShortestTravel = 4.0;
 constexpr double kShortestBackOff = 2.0;
+/// Of the way from PositionMin to PositionMax: stops and switches are beyond these.
+constexpr double kLongestTravel = 1.5;
 
 }  // namespace
 
@@ -100,6 +102,15 @@ std::string HomingProperties::objection_to_motion() const {
     return "HomingTravel is " + figure(get().travel) + ", expected more than " +
            figure(kShortestTravel * joint_->arming_motion) + ", four times ArmingMotion";
   }
+  const double range = joint_->highest() - joint_->lowest();  // infinite if it is continuous
+  if (!(get().travel <= kLongestTravel * range)) {
+    return "HomingTravel is " + figure(get().travel) + ", expected up to " +
+           figure(kLongestTravel * range) + ", 1.5 times the way from PositionMin to PositionMax";
+  }
+  if (!(joint_->homing_time > get().travel / speed)) {
+    return "HomingTime is " + figure(joint_->homing_time) + " s, expected more than " +
+           figure(get().travel / speed) + " s, which HomingTravel takes with HomingVelocity";
+  }
   if (method() != HomingMethod::kHardStop) return {};
   if (joint_->continuous) {
     return "HomingMethod is hard_stop, and Continuous says that the joint turns without end: leave "
@@ -143,6 +154,25 @@ std::string HomingProperties::objection_to_unused(const component::Check& /*chec
     if (of_motion && !moves()) {
       return std::string(each->name()) + " is given, and HomingMethod is 'here': nothing moves";
     }
+    const bool of_gains = each->name() == "HomingStiffness" || each->name() == "HomingDamping";
+    if (of_gains && !is_effort(command_)) {
+      return std::string(each->name()) + " is given, and its drive follows by its own gains";
+    }
+    if (each->name() == "HomingBackOff" && method() != HomingMethod::kHardStop) {
+      return "HomingBackOff is given, and HomingMethod is '" + get().method +
+             "': it comes away from a hard stop alone";
+    }
+  }
+  return {};
+}
+
+/// Samples are what watches it.
+std::string HomingProperties::objection_to_no_sampler() const {
+  for (const component::PropertyBase* const each : component::interface_of(owner_).properties) {
+    if (each->name() != "Sampler" || *static_cast<const bool*>(each->data())) continue;
+    return "HomingMethod is " + get().method +
+           ", and Sampler is false: nobody would brake the joint if whoever calls sensorRead no "
+           "longer did. Set Sampler: true";
   }
   return {};
 }
@@ -169,10 +199,16 @@ std::string HomingProperties::objection_to(const JointHardware& hardware) const 
            "tells of no index mark: use another method, or have its homing_signs say so "
            "and its since_index tell of it";
   }
-  if (method() == HomingMethod::kHardStop && !is_effort(command_) && !signs.bounds_effort) {
+  if (is_effort(command_) || signs.bounds_effort) return {};
+  if (method() == HomingMethod::kHardStop) {
     return whose +
            "does not bound the effort of its drive, which would push with all that it "
            "has: use another method, or command it by an effort";
+  }
+  if (get().effort > 0.0) {
+    return "HomingEffort is given, and '" + hardware.name() +
+           "' does not bound the effort of its drive: leave it out, bound it in the drive, or "
+           "command it by an effort";
   }
   return {};
 }
@@ -194,6 +230,7 @@ void HomingProperties::check(component::Check& check) const {
                   "set HomingRequired: true");
   }
   if (!moves()) return;
+  if (const std::string wrong = objection_to_no_sampler(); !wrong.empty()) check.error(wrong);
   if (hardware == nullptr) {
     return check.error("HomingMethod is " + get().method +
                        ", and what its sensor is of does not say what it can be homed by: extend "

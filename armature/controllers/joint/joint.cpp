@@ -41,6 +41,9 @@ constexpr base::Duration kAlternationTime = 500ms;
 constexpr base::Duration kMeasuredLastly = 100ms;
 /// How long a joint may take to come to rest once it is to stand.
 constexpr base::Duration kComingToRest = 2s;
+/// What is slower rests, or is noise.
+constexpr double kSlowestAngle = 0.02;    // rad/s
+constexpr double kSlowestLength = 0.001;  // m/s
 
 bool is_sign(double number) { return number == 1.0 || number == -1.0; }
 
@@ -95,7 +98,7 @@ void Joint::on_stop() {
   const base::Duration unseen = time() - measured_at_;
   const bool measured =
       measured_since_start_ && unseen <= std::max(kMeasuredLastly, 2 * period_.duration());
-  const bool at_rest = measured && std::abs(measured_.velocity) <= kRest;
+  const bool at_rest = measured && std::abs(measured_.velocity) <= rest_;
   const bool braked = brake_at_once();
   cut_power();
   kept_.note_stop({.position = measured_.position,
@@ -121,6 +124,7 @@ Outcome Joint::set_up() {
   if (!is_effort(way_) && !(settings_->max_error > 0.0)) {
     return component::refused(std::string(names_.limit) + " must be a number above 0");
   }
+  rest_ = units_.position().get() == "m" ? kSlowestLength : kSlowestAngle;
   auto limiter = JointLimiter::make(limits());
   if (!limiter) return component::refused(limiter.error());
   auto sequence = control::ArmingSequence::make(arming_steps());
@@ -211,7 +215,7 @@ control::HoldingWatch::Config Joint::holding() const {
           .max_alternation =
               settings_->holding_alternation < 1.0 ? settings_->holding_alternation : 2.0,
           .alternation_time = kAlternationTime,
-          .rest_velocity = kRest,
+          .rest_velocity = rest_,
           .settling_time = kComingToRest};
 }
 

@@ -94,8 +94,6 @@ class Joint : public component::Component,
       : Component(std::move(name)), way_(command), names_(names_of(command)) {}
 
  private:
-  static constexpr double kRest = 0.02;  ///< [rad/s]; what is slower rests, or is noise
-
   enum class Phase {
     kDisarmed,
     kTakingLoad,  ///< the brake is closed, or the motor off without one
@@ -158,11 +156,12 @@ class Joint : public component::Component,
   // Homing: joint_homing.cpp.
   component::Outcome begin_homing();
   component::Outcome may_home() const;
+  component::Outcome may_move_to_home() const;
   component::Outcome begin_by_hardware();
   component::Outcome begin_by_itself();
-  component::Outcome be_here();
+  void be_here();
   bool homes_by_hardware() const { return homing_.method() == HomingMethod::kDrive; }
-  bool begin_search();
+  bool begin_search(control::DrivePermit permit);
   void follow_own_homing(double displacement);
   void let_go_to_home();
   bool switch_on_to_home();
@@ -381,6 +380,7 @@ class Joint : public component::Component,
   bool homed_now_ = false;  ///< and its command ends with the next sample
   bool index_closed_ = false;
   double sensor_ratio_ = 1.0;       ///< motion of the joint for one of the motor
+  double rest_ = 0.0;               ///< [rad/s or m/s]; what is slower rests, or is noise
   double effort_ratio_ = 1.0;       ///< effort of the motor for one of the joint
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
   JointZero zero_;                  ///< that it was set to

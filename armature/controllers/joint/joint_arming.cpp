@@ -255,7 +255,7 @@ void Joint::note_sinking(double displacement) {
 /// @return the brake is applied
 bool Joint::disarm() {
   if (phase_ == Phase::kHoming && homes_by_hardware()) return switch_off();
-  const bool turns = std::abs(measured_.velocity) > kRest;
+  const bool turns = std::abs(measured_.velocity) > rest_;
   if ((limiter_->armed() || own_.armed()) && measured_lately() && turns) {
     off_at_rest_ = true;
     disarmed_at_ = time();
@@ -299,7 +299,7 @@ bool Joint::cut_power() {
 
 void Joint::cut_power_at_rest() {
   const bool waited = time() - disarmed_at_ > kLongestBraking;
-  if (waited || std::abs(measured_.velocity) <= kRest) cut_power();
+  if (waited || std::abs(measured_.velocity) <= rest_) cut_power();
 }
 
 bool Joint::brake_release(control::DrivePermit permit) {

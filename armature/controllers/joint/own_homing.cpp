@@ -90,8 +90,8 @@ JointLimiter::Config OwnHoming::limits(base::Duration period) const {
 }
 
 double OwnHoming::most_effort() const {
-  const bool pushes = settings_.method() == HomingMethod::kHardStop && !is_effort(way_);
-  return pushes ? settings_->effort : std::numeric_limits<double>::infinity();
+  const bool is_bounded = settings_->effort > 0.0 && !is_effort(way_);
+  return is_bounded ? settings_->effort : std::numeric_limits<double>::infinity();
 }
 
 bool OwnHoming::hold() {
