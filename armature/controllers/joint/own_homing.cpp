@@ -173,11 +173,11 @@ Reason OwnHoming::why(Status status, double way) const {
       return append_length(why, motion_.moved())
           .append(
               ": look for what drives it; HomingEffort and HomingStiffness have to hold its "
-              "weight");
+              "weight, and to overcome its friction");
     default:
       append_length(why.append("was stopped at "), motion_.found_at());
       return append_length(why.append(" of its way, and the second time at "), way)
-          .append(": what stops it gives way");
+          .append(": what stops it gives way, or is friction or its weight, and no hard stop");
   }
 }
 
