@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/properties/keeping.hpp"
 #include "armature/testing/deployed_robot.hpp"
 #include "tests/drives/own_homing_arm.hpp"
 
@@ -335,6 +336,18 @@ TEST_P(OwnHoming, AWordThatWasGivenWhileItMovedDoesNotCountAfterwards) {
   run_for(100ms);
   ASSERT_EQ(robot_->call("Arming", "disarm"), "");
   expect_rest_unhomed();
+}
+
+TEST_P(OwnHoming, NoPositionIsKeptOfAJointThatDidNotFindHome) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  ASSERT_EQ(robot_->call("Arming", "disarm"), "");
+  run_for(500ms);
+  ASSERT_TRUE(application().stop().ok());
+  auto& joint = dynamic_cast<component::Keeps&>(*application().find("Joint1"));
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  EXPECT_THAT(joint.keeping().end({.owner = "arm/Joint1", .now = now}),
+              HasSubstr("it has begun to home, and has not found home"));
 }
 
 TEST_P(OwnHoming, AStartAfterItFailedSaysWhyItIsNotArmed) {

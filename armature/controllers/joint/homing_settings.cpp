@@ -27,6 +27,16 @@ constexpr std::array kMethods{Name{"drive", HomingMethod::kDrive},
                               Name{"hard_stop", HomingMethod::kHardStop},
                               Name{"here", HomingMethod::kHere}};
 
+/// What but the method it is told.
+using Setting = std::pair<std::string_view, double HomingSettings::*>;
+constexpr std::array kSettings{Setting{"HomePosition", &HomingSettings::position},
+                               Setting{"HomingVelocity", &HomingSettings::velocity},
+                               Setting{"HomingTravel", &HomingSettings::travel},
+                               Setting{"HomingEffort", &HomingSettings::effort},
+                               Setting{"HomingStiffness", &HomingSettings::stiffness},
+                               Setting{"HomingDamping", &HomingSettings::damping},
+                               Setting{"HomingBackOff", &HomingSettings::back_off}};
+
 /// Of MaxVelocity, for homing: no joint is to look for its end faster.
 constexpr double kFastest = 0.5;
 /// Of ArmingMotion: shorter ways are not told from standing.
@@ -139,28 +149,23 @@ std::string HomingProperties::objection_to_effort() const {
   return {};
 }
 
-/// Settings of a homing that there is not are a mistake in its method.
-std::string HomingProperties::objection_to_unused(const component::Check& /*check*/) const {
-  for (const component::PropertyBase* const each : component::interface_of(owner_).properties) {
-    const bool of_motion = each->name() == "HomingVelocity" || each->name() == "HomingTravel" ||
-                           each->name() == "HomingEffort" || each->name() == "HomingStiffness" ||
-                           each->name() == "HomingDamping" || each->name() == "HomingBackOff";
-    const bool of_any = of_motion || each->name() == "HomePosition";
-    if (!each->was_set()) continue;
-    if (of_any && method() == HomingMethod::kDrive) {
-      return std::string(each->name()) +
-             " is given, and HomingMethod is 'drive': its hardware homes by its own settings";
+/// Settings of a homing that there is not are a mistake in its method. A file that autosave writes
+/// has all of them, those too as they are by default.
+std::string HomingProperties::objection_to_unused() const {
+  const HomingSettings by_default;
+  for (const auto& [name, setting] : kSettings) {
+    if (get().*setting == by_default.*setting) continue;
+    const std::string given = std::string(name) + " is given, and ";
+    if (method() == HomingMethod::kDrive) {
+      return given + "HomingMethod is 'drive': its hardware homes by its own settings";
     }
-    if (of_motion && !moves()) {
-      return std::string(each->name()) + " is given, and HomingMethod is 'here': nothing moves";
-    }
-    const bool of_gains = each->name() == "HomingStiffness" || each->name() == "HomingDamping";
-    if (of_gains && !is_effort(command_)) {
-      return std::string(each->name()) + " is given, and its drive follows by its own gains";
-    }
-    if (each->name() == "HomingBackOff" && method() != HomingMethod::kHardStop) {
-      return "HomingBackOff is given, and HomingMethod is '" + get().method +
-             "': it comes away from a hard stop alone";
+    if (setting == &HomingSettings::position) continue;
+    if (!moves()) return given + "HomingMethod is 'here': nothing moves";
+    const bool is_gain =
+        setting == &HomingSettings::stiffness || setting == &HomingSettings::damping;
+    if (is_gain && !is_effort(command_)) return given + "its drive follows by its own gains";
+    if (setting == &HomingSettings::back_off && method() != HomingMethod::kHardStop) {
+      return given + "HomingMethod is '" + get().method + "': it comes away from a hard stop alone";
     }
   }
   return {};
@@ -215,7 +220,7 @@ std::string HomingProperties::objection_to(const JointHardware& hardware) const 
 
 void HomingProperties::check(component::Check& check) const {
   if (const std::string wrong = objection(); !wrong.empty()) return check.error(wrong);
-  if (const std::string unused = objection_to_unused(check); !unused.empty()) {
+  if (const std::string unused = objection_to_unused(); !unused.empty()) {
     return check.error(unused, "leave it out, or name another method");
   }
   const JointHardware* const hardware = hardware_of(owner_, check);

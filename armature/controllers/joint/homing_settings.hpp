@@ -60,7 +60,7 @@ class HomingProperties final : public component::Properties<HomingSettings>,
  private:
   std::string objection_to_motion() const;
   std::string objection_to_effort() const;
-  std::string objection_to_unused(const component::Check& check) const;
+  std::string objection_to_unused() const;
   std::string objection_to_no_sampler() const;
   std::string objection_to(const JointHardware& hardware) const;
   std::string objection_to(const DrivenJoint& joint) const;

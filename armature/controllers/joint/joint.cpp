@@ -104,7 +104,8 @@ void Joint::on_stop() {
   kept_.note_stop({.position = measured_.position,
                    .at_rest = at_rest,
                    .braked = braked,
-                   .exact = hardware_.is_exact()});
+                   .exact = hardware_.is_exact(),
+                   .known = unknown_ == Unknown::kNothing});
 }
 
 Outcome Joint::set_up() {
