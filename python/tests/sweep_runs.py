@@ -76,7 +76,9 @@ def leaves_and_dies(point, folder):
 
 
 def slow_with_folder(point, folder):
-    """Writes its result in two steps."""
+    """Writes its result in two steps, if it is recorded."""
+    if folder is None:
+        return {"cost": point["x"]}
     Path(folder, "left.txt").write_text("half")
     Path(point["marks"], "begun").touch()
     time.sleep(600 if point["x"] == 1 and not Path(point["marks"], "again").exists() else 0)

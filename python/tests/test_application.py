@@ -192,15 +192,34 @@ def test_one_that_nobody_refers_to_is_gone_at_once(tmp_path, janus_file):
         gc.enable()
 
 
-def test_a_program_that_ends_without_a_stop_leaves_a_whole_recording(tmp_path, janus_file):
-    program = ("import armature\n"
-               f"app = armature.load({str(janus_file)!r}).application(record={str(tmp_path)!r})\n"
-               "kept = [app, lambda: app]\nkept.append(kept)\n"
-               "app.run_for(0.5)\n")
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+PROGRAM = """
+import armature
+from armature.author import Component, Output
+
+def main():
+    class Knowing(Component):
+        "Knows its application, so that both keep each other."
+        out = Output(float, doc="the time")
+        applications = []
+
+        def update(self):
+            self.out = self.time
+
+    app = armature.load("knowing.yaml", components=[Knowing]).application(record="out")
+    Knowing.applications.append(app)
+    app.run_for(0.5)
+
+main()
+"""
+
+
+def test_a_program_that_ends_without_a_stop_leaves_a_whole_recording(tmp_path):
+    (tmp_path / "knowing.yaml").write_text("application: a\n"
+                                           "components: {One: {model: Knowing, activity: {periodic: 10 ms}}}\n")
+    run = subprocess.run([sys.executable, "-c", PROGRAM], cwd=tmp_path, capture_output=True, text=True)
     assert (run.returncode, run.stderr) == (0, "")
-    recording = armature.read_recording(tmp_path)
-    assert recording.complete and recording["PID1.Out"].times[-1] == pytest.approx(0.5, abs=0.02)
+    recording = armature.read_recording(tmp_path / "out")
+    assert recording.complete and recording["One.out"].times[-1] == pytest.approx(0.5, abs=0.02)
 
 
 FAULTING = """application: faulting

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Components in Python: declared, connected, updated; a crash of one faults it and nothing else."""
-import sys
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -187,9 +185,12 @@ def test_a_class_that_is_defined_anew_takes_its_elder_s_place(file):
             assert app.One.out.value == number
 
 
-def test_several_threads_load_classes_of_one_name(file):
-    file.write_text("application: a\ncomponents: {One: {model: Same, activity: {periodic: 10 ms}}}\n")
-    wrong = []
+@pytest.mark.parametrize("in_a_thread", [True, False])
+def test_a_load_has_its_own_classes_while_another_one_has_others_of_their_names(file, in_a_thread):
+    file.write_text("application: a\ncomponents:\n  One: {model: First, activity: {periodic: 10 ms}}\n"
+                    "  Two: {model: Same, activity: {periodic: 10 ms}}\n")
+    inner = file.with_name("inner.yaml")
+    inner.write_text("application: b\ncomponents: {Two: {model: Same, activity: {periodic: 10 ms}}}\n")
 
     def class_of(number):
         class Same(Component):
@@ -197,31 +198,32 @@ def test_several_threads_load_classes_of_one_name(file):
 
             out = Output(int, doc="which")
 
-            def __init__(self) -> None:
-                time.sleep(0)  # another thread may load now
-
             def update(self) -> None:
                 self.out = number
 
         return Same
 
-    def run(number):
-        for _ in range(20):
-            app = armature.load(file, components=[class_of(number)]).application()
-            app.run_for(0.01)
-            if app.One.out.value != number:
-                wrong.append(number)
-            app.stop()
+    others = []
 
-    before = sys.getswitchinterval()
-    sys.setswitchinterval(1e-6)
-    threads = [threading.Thread(target=run, args=(number,)) for number in range(4)]
-    for one in threads:
-        one.start()
-    for one in threads:
-        one.join()
-    sys.setswitchinterval(before)
-    assert wrong == []
+    class First(Component):
+        """Is made while its deployment is loaded."""
+
+        def __init__(self) -> None:
+            def load_other():
+                others.append(armature.load(inner, components=[class_of(2)]))
+
+            if in_a_thread:
+                thread = threading.Thread(target=load_other)
+                thread.start()
+                thread.join()
+            else:
+                load_other()
+
+    outer = armature.load(file, components=[First, class_of(1)])
+    for deployment, number in ((outer, 1), (others[0], 2)):
+        with deployment.application() as app:
+            app.run_for(0.01)
+            assert app.Two.out.value == number
 
 
 def test_a_deployment_has_64_classes_at_most(file):

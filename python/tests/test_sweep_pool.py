@@ -242,6 +242,7 @@ def test_a_recorded_run_that_was_interrupted_is_done_again(tmp_path):
     marks, out = tmp_path / "marks", tmp_path / "out"
     marks.mkdir()
     some = [{"x": 1, "marks": str(marks)}]
+    quiet(sweep_runs.slow_with_folder, some, workers=1, out=out)
     interrupt_when((marks / "begun").exists)
     with pytest.raises(Interrupted):
         quiet(sweep_runs.slow_with_folder, some, workers=1, out=out, record=True)
