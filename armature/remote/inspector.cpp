@@ -27,7 +27,8 @@ using ride::Access;
 using ride::Failure;
 using ride::ReplyOf;
 
-constexpr double kLongest = 3600.0;  ///< [s] between two samples of a watch
+constexpr std::size_t kMostWatched = 4096;  ///< items of a watch
+constexpr double kLongest = 3600.0;         ///< [s] between two samples of a watch
 
 inspect::LifeCycleChange change_named(const std::string& name) {
   if (const auto change = types::value_named<inspect::LifeCycleChange>(name)) return *change;
@@ -204,9 +205,9 @@ class Inspector::Service final : public InspectorService {
              ReplyOf<Watch> reply) override {
     const std::set<std::string> components = components_in(items);
     for (const std::string& component : components) reply.demand(component, Access::kRead);
-    const bool sensible = items.size() <= kMostItems && interval >= 0.0 && interval <= kLongest;
+    const bool sensible = items.size() <= kMostWatched && interval >= 0.0 && interval <= kLongest;
     if (!sensible) {
-      throw Failure("a watch has at most " + std::to_string(kMostItems) +
+      throw Failure("a watch has at most " + std::to_string(kMostWatched) +
                     " items, and an interval from 0 to 3600 s");
     }
     in_control(reply, [this, items, components, period = base::from_seconds(interval),

@@ -266,6 +266,10 @@ TEST_F(InspectorTest, KeepsNoMoreWatchesThanItsClientsNeed) {
   EXPECT_THAT(
       ask(&InspectorPlaceholder::watch, std::vector<std::string>{"Axis.Position"}, -1.0).error(),
       HasSubstr("an interval from 0 to 3600 s"));
+  EXPECT_THAT(
+      ask(&InspectorPlaceholder::watch, std::vector<std::string>(4097, "Axis.Position"), 0.0)
+          .error(),
+      HasSubstr("at most 4096 items"));
 }
 
 TEST_F(InspectorTest, SoIsTheWayToAStopThatItAskedFor) {

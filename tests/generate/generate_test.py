@@ -23,8 +23,8 @@ EXAMPLES = SOURCE / "examples"
 JANUS = SOURCE / "robots" / "janus"
 WAM = SOURCE / "robots" / "wam"
 LONG = 30.0
-# Reads deployments, serves tools: none of it is for a small board.
-NOT_LINKED = re.compile(r"yaml|lua|pugixml|libarmature_(deploy|document|orocos|edit|remote|ride|lua|browser|inspect)|ssl")
+# Reads deployments, serves tools: none of it is for a small board. (pugixml is: the recorder reads the robot's description by it.)
+NOT_LINKED = re.compile(r"yaml|lua|libarmature_(deploy|document|orocos|edit|remote|ride|lua|browser|inspect)|ssl")
 
 
 def run(*words, **options):

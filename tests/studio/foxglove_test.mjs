@@ -12,6 +12,19 @@ after(finish);
 
 const kJanus = file_of("robots/janus/demo/studio.yaml");
 
+test("values of an application with hundreds of ports", { timeout: 120_000 }, async () => {
+  const file = join(folder, "many.yaml");
+  writeFileSync(file, 'application: many\nlibraries: [controls]\ncomponents:\n  C{1..400}: {model: Constant, activity: {periodic: 100 ms, thread: values}, properties: {Value: "{i}"}}\n');
+  const { foxglove } = await studio((await robot(file, "many")).address);
+  const one = await client(foxglove);
+  const outputs = [...one.channels.keys()].filter((topic) => topic.endsWith(".Out"));
+  assert.equal(outputs.length, 400);
+  for (const topic of outputs) one.subscribe(topic);
+  await until(() => new Set(one.messages.map((message) => message.topic)).size === 400, () => `values of all; ${one.said()}`);
+  for (const { topic, value } of one.messages) assert.equal(value.value, Number(/\d+/.exec(topic)[0]));
+  assert.equal(one.closed, false);
+});
+
 test("channels, values, parameters and the scene of Janus", { timeout: 120_000 }, async (context) => {
   const head = await robot(kJanus, "janus");
   const { foxglove } = await studio(head.address);

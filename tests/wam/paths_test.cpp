@@ -43,6 +43,9 @@ TEST_F(WamOnPaths, WhatCannotBeIsRefusedAndNothingMoves) {
   expect_refused("moveLinear",
                  {types::Value::of(numbers({beside(0, 0, 2)})), types::Value::of(0.0)},
                  HasSubstr(" m along the path of 2.000 m, at x "));
+  expect_refused("moveLinear",
+                 {types::Value::of(numbers({beside(1e9, 0, 0)})), types::Value::of(0.0)},
+                 HasSubstr("expected up to 100"));
   expect_refused("moveLinear", {types::Value::of(Vector{1, 2, 3}), types::Value::of(0.0)},
                  HasSubstr("found 3 numbers, expected six for each pose"));
   expect_refused("moveLinear",

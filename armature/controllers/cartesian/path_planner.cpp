@@ -24,6 +24,7 @@ namespace {
 constexpr base::Duration kLongestPlannersPeriod = std::chrono::milliseconds(20);
 constexpr std::size_t kFewestJoints = 6;
 constexpr double kAtRest = 1e-9;  // rad/s
+constexpr double kLongestPath = 100.0;  // m: no arm reaches so far, and planning would take long
 
 double in_thousandths(double number) { return std::round(number * 1e3) / 1e3; }
 
@@ -177,6 +178,10 @@ Outcome PathPlanner::play(const Vector& begin, const Path& path, double speed) {
     return component::refused("the speed is " + std::to_string(speed) +
                               " m/s, expected 0 to max_tool_velocity, " +
                               std::to_string(velocity_.get()));
+  }
+  if (const double length = path.value().length(); !(length <= kLongestPath)) {
+    return component::refused("the path is " + std::to_string(length) + " m long, expected up to " +
+                              std::to_string(kLongestPath) + " m");
   }
   control::CartesianLimits limits = limits_;
   if (speed > 0.0) limits.velocity = speed;

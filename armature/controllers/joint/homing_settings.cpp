@@ -128,20 +128,30 @@ std::string HomingProperties::objection_to_effort() const {
   return {};
 }
 
-/// Settings of a homing that there is not are a mistake in its method.
+/// Settings of a homing that there is not are a mistake in its method. The values that they have
+/// anyway, which a property file of the joint has, too, say nothing.
 std::string HomingProperties::objection_to_unused(const component::Check& /*check*/) const {
-  for (const component::PropertyBase* const each : component::interface_of(owner_).properties) {
-    const bool of_motion = each->name() == "HomingVelocity" || each->name() == "HomingTravel" ||
-                           each->name() == "HomingEffort" || each->name() == "HomingStiffness" ||
-                           each->name() == "HomingDamping" || each->name() == "HomingBackOff";
-    const bool of_any = of_motion || each->name() == "HomePosition";
-    if (!each->was_set()) continue;
-    if (of_any && method() == HomingMethod::kDrive) {
-      return std::string(each->name()) +
+  struct Setting {
+    const char* name;
+    bool given;
+    bool of_motion = true;
+  };
+  const HomingSettings usual;
+  const Setting settings[] = {{"HomePosition", get().position != usual.position, false},
+                              {"HomingVelocity", get().velocity != usual.velocity},
+                              {"HomingTravel", get().travel != usual.travel},
+                              {"HomingEffort", get().effort != usual.effort},
+                              {"HomingStiffness", get().stiffness != usual.stiffness},
+                              {"HomingDamping", get().damping != usual.damping},
+                              {"HomingBackOff", get().back_off != usual.back_off}};
+  for (const Setting& each : settings) {
+    if (!each.given) continue;
+    if (method() == HomingMethod::kDrive) {
+      return std::string(each.name) +
              " is given, and HomingMethod is 'drive': its hardware homes by its own settings";
     }
-    if (of_motion && !moves()) {
-      return std::string(each->name()) + " is given, and HomingMethod is 'here': nothing moves";
+    if (each.of_motion && !moves()) {
+      return std::string(each.name) + " is given, and HomingMethod is 'here': nothing moves";
     }
   }
   return {};

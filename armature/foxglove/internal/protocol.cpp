@@ -2,6 +2,7 @@
 #include "armature/foxglove/internal/protocol.hpp"
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <initializer_list>
 
@@ -106,6 +107,26 @@ Request request_in(const Json& json) {
                   "by Foxglove"};
 }
 
+/// Each member of an object is compared with those before it, so that very many of them would take
+/// the time of other clients.
+class KeyLimit {
+ public:
+  static constexpr int kMost = 256;
+
+  bool allows(int depth, Json::parse_event_t event) {
+    using Event = Json::parse_event_t;
+    const auto place = static_cast<std::size_t>(depth);
+    if (event == Event::object_start) counts_.at(place + 1) = 0;
+    if (event == Event::key && ++counts_.at(place) > kMost) exceeded_ = true;
+    return !exceeded_;
+  }
+  bool exceeded() const { return exceeded_; }
+
+ private:
+  std::array<int, kDeepest + 2> counts_{};  ///< of the object that is read at each depth
+  bool exceeded_ = false;
+};
+
 template <std::unsigned_integral Number>
 void put(Number number, std::string& to) {
   for (std::size_t i = 0; i < sizeof number; ++i) {
@@ -120,9 +141,16 @@ std::uint64_t ns_of(base::Time time) {
 }  // namespace
 
 base::Result<Request> parse_request(std::string_view text) {
+  KeyLimit keys;
   // Deeper values are left out: copies of them go as deep.
-  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepest; };
-  const Json json = Json::parse(text, shallow, false);
+  const auto sensible = [&](int depth, Json::parse_event_t event, Json&) {
+    return depth <= kDeepest && keys.allows(depth, event);
+  };
+  const Json json = Json::parse(text, sensible, false);
+  if (keys.exceeded()) {
+    return base::Error{"an object of a message has at most " + std::to_string(KeyLimit::kMost) +
+                       " members"};
+  }
   if (!json.is_object()) return base::Error{"expected a message in JSON, an object"};
   try {
     return request_in(json);

@@ -73,6 +73,17 @@ TEST(FoxgloveRequest, DepthIsBounded) {
   EXPECT_LT(set.parameters.at(0).value.dump().size(), 200u);
 }
 
+TEST(FoxgloveRequest, ObjectsWithVeryManyMembersAreRefused) {
+  const auto with_members = [](int count) {
+    std::string text = R"({"op":"setParameters","parameters":[{"name":"a","value":{"x":{})";
+    for (int i = 0; i < count; ++i) text += ",\"" + std::to_string(i) + "\":0";
+    return text + "}}]}";
+  };
+  EXPECT_TRUE(parse_request(with_members(255)).ok());
+  EXPECT_EQ(parse_request(with_members(30'000)).error(),
+            "an object of a message has at most 256 members");
+}
+
 TEST(FoxgloveRequest, WhateverComesIsTakenOrRefusedWithAReason) {
   const std::vector<std::string> seeds{
       R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":3}]})",

@@ -121,9 +121,27 @@ inspect::Watch Subscriptions::watch_what_can_be(const std::vector<std::string>& 
       }
     }
     if (good.empty()) return {};
-    if (good.size() == items.size()) throw;  // it is the number of them
-    return view_.watch(good, kInterval);
+    if (good.size() < items.size()) return view_.watch(good, kInterval);
+    return watch_as_many_as_can_be(std::move(good), all.what());
   }
+}
+
+/// The first of them: each can be watched, but not all together.
+inspect::Watch Subscriptions::watch_as_many_as_can_be(std::vector<std::string> items,
+                                                      const std::string& why) {
+  while (items.size() > 1) {
+    items.resize(items.size() / 2);
+    try {
+      inspect::Watch some = view_.watch(items, kInterval);
+      outlet_.warn("values come of the first " + std::to_string(items.size()) +
+                   " subscriptions only: " + why);
+      return some;
+    } catch (const inspect::Refusal&) {
+      // Half of these, then.
+    }
+  }
+  outlet_.warn(why);
+  return {};
 }
 
 void Subscriptions::end_watch() {
@@ -222,22 +240,28 @@ void Subscriptions::send_texts(base::Time now) {
     }
   }
   std::vector<std::string> items;
-  for (const auto& [item, channel] : wanted) {
-    if (items.size() < kTextsAtOnce) items.push_back(item);
-  }
-  if (items.empty()) return;
-  for (const inspect::ItemValue& one : view_.read(items)) {
-    const auto found = wanted.find(one.item);
-    if (found == wanted.end() || !one.error.empty() || !one.written) continue;
-    const Channel& channel = *found->second;
-    const Json value = json_of_text(channel.shape, one.value);
-    const bool structure = channel.shape.kind == Shape::Kind::kStruct;
-    const std::string json = text_of(structure ? value : Json{{"value", value}});
-    for (const auto& [id, number] : subscriptions_) {
-      if (number != channel.advertised.id || sent_texts_[id] == json) continue;
-      sent_texts_[id] = json;
-      outlet_.offer(message_data(id, std::max(base::Time{}, now - one.age), json));
+  for (auto one = wanted.begin(); one != wanted.end();) {
+    items.push_back(one->first);
+    ++one;
+    if (items.size() < kTextsAtOnce && one != wanted.end()) continue;
+    for (const inspect::ItemValue& value : view_.read(items)) {
+      const auto found = wanted.find(value.item);
+      if (found != wanted.end()) send_text(*found->second, value, now);
     }
+    items.clear();
+  }
+}
+
+void Subscriptions::send_text(const Channel& channel, const inspect::ItemValue& one,
+                              base::Time now) {
+  if (!one.error.empty() || !one.written) return;
+  const Json value = json_of_text(channel.shape, one.value);
+  const bool structure = channel.shape.kind == Shape::Kind::kStruct;
+  const std::string json = text_of(structure ? value : Json{{"value", value}});
+  for (const auto& [id, number] : subscriptions_) {
+    if (number != channel.advertised.id || sent_texts_[id] == json) continue;
+    sent_texts_[id] = json;
+    outlet_.offer(message_data(id, std::max(base::Time{}, now - one.age), json));
   }
 }
 

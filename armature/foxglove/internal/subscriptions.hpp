@@ -69,9 +69,11 @@ class Subscriptions {
   std::vector<std::string> wanted_items() const;
   void begin_watch();
   inspect::Watch watch_what_can_be(const std::vector<std::string>& items);
+  inspect::Watch watch_as_many_as_can_be(std::vector<std::string> items, const std::string& why);
   static Part part_of(const std::string& item, const std::vector<inspect::WatchedItem>& given);
   bool wants(Channel::Kind kind) const;
   void end_watch();
+  void send_text(const Channel& channel, const inspect::ItemValue& one, base::Time now);
   void publish(std::uint32_t channel, base::Time time, const std::string& json);
   void send_transforms(base::Time now, const inspect::WatchedValues& values);
   void send_scene(base::Time now);

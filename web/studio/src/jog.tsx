@@ -44,20 +44,21 @@ export function Jog({ component }: { component: Component }) {
   const tool = moves_tool(component);
   const [turning, set_turning] = useState(() => String(slow(property(component, tool ? "max_tool_turning" : "max_vel"))));
   const [along, set_along] = useState(() => String(slow(property(component, "max_tool_velocity"))));
+  const [frame, set_frame] = useState(() => (tool ? property(component, "jog_frame") : ""));
   const [why, set_why] = useState("");
   const positions = usePositions(component);
   const wanted = { "rad/s": Number(turning), "m/s": Number(along) };
   return (
     <fieldset className="jog">
       <legend>{`${component.name}: jog`}</legend>
-      {tool && <Frame component={component} tell={set_why} />}
+      {tool && <Frame frame={frame} set={set_frame} />}
       {tool && <Speed unit="m/s" text={along} set={set_along} />}
       <Speed unit="rad/s" text={turning} set={set_turning} />
       {axes_of(component).map(({ name, unit }, i) => (
         <div key={name} className="row" role="group" aria-label={`${component.name} axis ${i + 1}`}>
           <span>{name}</span>
-          <JogButton component={component.name} name={name} axis={i + 1} sign={-1} speed={wanted[unit]} tell={set_why} />
-          <JogButton component={component.name} name={name} axis={i + 1} sign={1} speed={wanted[unit]} tell={set_why} />
+          <JogButton component={component.name} name={name} axis={i + 1} sign={-1} speed={wanted[unit]} frame={frame} tell={set_why} />
+          <JogButton component={component.name} name={name} axis={i + 1} sign={1} speed={wanted[unit]} frame={frame} tell={set_why} />
           <output>{positions[i] === undefined ? "" : `${fixed_text(positions[i])} rad`}</output>
         </div>
       ))}
@@ -74,15 +75,11 @@ function Speed({ unit, text, set }: { unit: string; text: string; set: (text: st
   );
 }
 
-/** In whose axes a tool is jogged: from the next jog on. */
-function Frame({ component, tell }: { component: Component; tell: (why: string) => void }) {
-  const [frame, set_frame] = useState(() => property(component, "jog_frame"));
-  const choose = (wanted: string): void => {
-    inspector().write(`${component.name}.jog_frame`, wanted).then(() => set_frame(wanted), (error: unknown) => tell(message_of(error)));
-  };
+/** In whose axes a tool is jogged: each jog says it. */
+function Frame({ frame, set }: { frame: string; set: (frame: string) => void }) {
   return (
     <label className="row">In the axes of the
-      <select value={frame} onChange={(event) => choose(event.target.value)}>
+      <select value={frame} onChange={(event) => set(event.target.value)}>
         <option value="base">base</option>
         <option value="tool">tool</option>
       </select>
@@ -90,8 +87,10 @@ function Frame({ component, tell }: { component: Component; tell: (why: string) 
   );
 }
 
-function JogButton({ component, name, axis, sign, speed, tell }: { component: string; name: string; axis: number; sign: 1 | -1; speed: number; tell: (why: string) => void }) {
-  const { held, props } = useHeld(() => press_jog(component, axis, sign * speed, tell));
+interface JogButtonProps { component: string; name: string; axis: number; sign: 1 | -1; speed: number; frame: string; tell: (why: string) => void }
+
+function JogButton({ component, name, axis, sign, speed, frame, tell }: JogButtonProps) {
+  const { held, props } = useHeld(() => press_jog(component, axis, sign * speed, tell, frame));
   return (
     <button type="button" className={`hold ${held ? "held" : ""}`} disabled={!(speed > 0)} aria-label={`${name.toLowerCase()} ${sign < 0 ? "back" : "forth"}`}
       title="Hold it: mouse, finger, Space or Enter" {...props}>{sign < 0 ? "−" : "+"}</button>

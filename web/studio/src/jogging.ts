@@ -7,7 +7,7 @@ const kRenewal = 50;      ///< [ms]
 const kMostWaiting = 3;   ///< renewals without an answer: a connection that is stalled gets no more
 
 /** Moves an axis (from 1); returns what lets go of it. `tell` is told why it does not move, or no more. */
-export function press_jog(component: string, axis: number, velocity: number, tell: (why: string) => void): () => void {
+export function press_jog(component: string, axis: number, velocity: number, tell: (why: string) => void, frame = ""): () => void {
   const words = [String(axis), String(velocity)];
   let held = true;
   let begun = false;
@@ -28,12 +28,16 @@ export function press_jog(component: string, axis: number, velocity: number, tel
   };
   const fail = (error: unknown): void => end(message_of(error));
   const timer = setInterval(() => void renew().catch(fail), kRenewal);
-  void inspector().begin(component, "jog", words).then((status) => {
+  const begin = async (): Promise<void> => {
+    // Whatever others have chosen meanwhile: it moves as this page shows.
+    if (frame) await inspector().write(`${component}.jog_frame`, frame);
+    if (!held) return;
+    const status = await inspector().begin(component, "jog", words);
     begun = true;
     handle = status.handle;
-    if (!held) return void inspector().cancel(handle).catch(() => undefined);
-    if (status.ended) end(status.reason);
-    return undefined;
-  }, fail);
+    if (!held) void inspector().cancel(handle).catch(() => undefined);
+    else if (status.ended) end(status.reason);
+  };
+  void begin().catch(fail);
   return () => end();
 }
