@@ -147,7 +147,7 @@ void Subscriber::begin() {
   refuses_ = false;
   heard_at_ = updated_at_ = time();
   disarmed_now_ = face(armed_).source() != nullptr;
-  deafen();
+  deafened_ = deaf_ = false;
   received_.write(0);
   refusals_.write(0);
 }
@@ -181,9 +181,9 @@ void Subscriber::expect_arming(component::Check& check,
         "add Arming to its peers");
   }
   for (const Component* each : commanded) {
-    const Component& brakes = *internal::brakes(*each, check);
-    if (&brakes == &stops->owner()) continue;
-    check.error("it commands '" + each->name() + "', which '" + brakes.name() +
+    const Component* const brakes = internal::brakes(*each, check);
+    if (brakes == nullptr || brakes == &stops->owner()) continue;
+    check.error("it commands '" + each->name() + "', which '" + brakes->name() +
                     "' stops, and is told of '" + stops->owner().name() + "'",
                 "give both the same Arming as a peer");
   }
@@ -215,8 +215,8 @@ std::string Subscriber::objection_to(const Sender* sender) {
   if (sender == nullptr) return "who sent it has gone already";
   if (disarmed_now_) return "the robot is not armed";
   if (!ignored_.contains(*sender)) return {};
-  return "nothing goes on by itself: its sender was there when the robot was armed or stopped, or "
-         "this component started, and must begin anew";
+  return "nothing goes on by itself: its sender was there when the robot was armed or stopped, "
+         "and must begin anew";
 }
 
 void Subscriber::refuse(std::string_view why) {

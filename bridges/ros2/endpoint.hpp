@@ -88,13 +88,14 @@ class Publisher : public Endpoint {
 /// What waited while its thread was held up for half a second is refused, too: it is too old.
 ///
 /// Nothing goes on by itself. With Arming among its peers, it hears nobody before the operator has
-/// armed the robot. Who is there when the operator arms, disarms or stops it, or this component
-/// starts, is not heard any more; nor is who comes within `max_silence` after that. Who begins
-/// later may command: a program that makes its publisher anew.
+/// armed the robot. Who is there when the operator arms, disarms or stops it is not heard any
+/// more; nor is who comes within `max_silence` after that. Who begins later may command: a program
+/// that makes its publisher anew.
 ///
 /// What it leads to is checked: an effort only behind a component that takes commands and brakes at
 /// the operator's stop, such as a generator of motions or a chassis, which keeps the limits. Where
-/// it leads to one of these, it must be told of the same operator: it needs Arming among its peers.
+/// it leads to one that takes commands, it must be told of the same operator: it needs Arming among
+/// its peers.
 class Subscriber : public Endpoint {
  public:
   using Endpoint::Endpoint;

@@ -64,6 +64,10 @@ TEST(Reach, WhoeverCommandsAMotionIsToldOfItsOperator) {
       << "nobody brakes it at the operator's stop";
 }
 
+TEST(Reach, WhateverTakesCommandsMayBeAChassisElsewhere) {
+  EXPECT_THAT(said_of(model("Relay") + kToRelay, ""), HasSubstr(kNotTold));
+}
+
 TEST(Reach, AnInputHasOneTopic) {
   EXPECT_THAT(said_of(model("Relay") + kToRelay +
                           "ros: Second:\n    model: TopicToPort\n    properties: {port: Relay.In, "

@@ -82,7 +82,7 @@ class Reach {
     if (input != nullptr) enter(*input);
     for (std::size_t i = 0; i < reached_.size() && !refused_; ++i) follow_one(*reached_[i]);
   }
-  std::vector<const Component*> keepers() && { return std::move(keepers_); }
+  std::vector<const Component*> commanded() && { return std::move(commanded_); }
 
  private:
   void follow_one(const Component& component) {
@@ -107,11 +107,13 @@ class Reach {
     enter(operation.owner());
   }
   void enter(const Component& component) {
-    if (takes_commands(component) && brakes(component, check_) != nullptr) {
-      if (std::ranges::find(keepers_, &component) == keepers_.end()) keepers_.push_back(&component);
-    } else if (std::ranges::find(reached_, &component) == reached_.end()) {
-      reached_.push_back(&component);
-    }
+    const bool commanded = takes_commands(component);
+    if (commanded) add(component, commanded_);
+    if (!commanded || brakes(component, check_) == nullptr) add(component, reached_);
+  }
+
+  static void add(const Component& component, std::vector<const Component*>& to) {
+    if (std::ranges::find(to, &component) == to.end()) to.push_back(&component);
   }
 
   /// Once: the first is enough to mend.
@@ -126,7 +128,7 @@ class Reach {
   component::Check& check_;
   std::map<const Component*, std::vector<const Component*>> told_by_;
   std::vector<const Component*> reached_;
-  std::vector<const Component*> keepers_;
+  std::vector<const Component*> commanded_;
   bool refused_ = false;
 };
 
@@ -145,7 +147,7 @@ std::vector<const Component*> check_reach(const Component& from,
                                           component::Check& check) {
   Reach reach(check);
   reach.follow(from, input);
-  return std::move(reach).keepers();
+  return std::move(reach).commanded();
 }
 
 }  // namespace armature::ros2::internal

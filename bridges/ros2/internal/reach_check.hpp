@@ -17,7 +17,7 @@ const component::Component* brakes(const component::Component& component,
 /// generator or a chassis. Commands of the operator alone do not count, such as a joint's `home`.
 /// @param from   whose outputs, calls and events are followed
 /// @param input  that `from` writes beside that; nullptr: none
-/// @return the components that keep limits which it came to
+/// @return the components that take commands of motions which it came to, whether they brake or not
 std::vector<const component::Component*> check_reach(const component::Component& from,
                                                      const component::InputPortBase* input,
                                                      component::Check& check);
