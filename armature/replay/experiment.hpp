@@ -35,7 +35,11 @@ struct Experiment {
   std::map<std::string, std::string> texts;  ///< of the deployment and what it includes, by path
   std::map<std::string, std::string> named;  ///< paths, by the properties that have them
   std::map<std::string, std::string> files;  ///< that these paths lead to; small texts only
-  std::string outline;                       ///< runner::outline of what ran
+  /// Of properties that name files which components change: texts by their names in the folder that
+  /// the property names; by "" of the file that it names.
+  using Contents = std::map<std::string, std::string>;
+  std::map<std::string, Contents> own;
+  std::string outline;  ///< runner::outline of what ran
 };
 
 /// Of 64 bits, as hexadecimal digits: equal contents have equal hashes.
@@ -45,5 +49,9 @@ base::Result<void> write_experiment(const std::string& folder, const Experiment&
 
 /// The error says what the folder of a run has, and what was found.
 base::Result<Experiment> load_experiment(const std::string& folder);
+
+/// As `load_experiment`, of the text of its file.
+/// @param path  for errors
+base::Result<Experiment> parse_experiment(std::string_view text, const std::string& path);
 
 }  // namespace armature::replay

@@ -2,13 +2,17 @@
 """A running application in simulated time."""
 from __future__ import annotations
 
+import atexit
+import contextlib
 import enum
+import weakref
 from collections.abc import Callable
 from types import TracebackType
 
 from armature import _native
 from armature._component import Components, Face
-from armature._errors import DeploymentError, RunError, has_errors
+from armature._errors import DeploymentError, RunError, StoodStill, has_errors
+from armature._members import Wait
 from armature._native import LogLine
 
 
@@ -35,7 +39,10 @@ class Application(Face):
         diagnostics = self._simulation.start()
         if has_errors(diagnostics):
             raise DeploymentError(diagnostics)
-        super().__init__(Components(self._simulation, self._wait))
+        # Components know the simulation, not this object: without a cycle it ends when the last
+        # reference is gone, and with it its recordings and the lock of their folder.
+        super().__init__(Components(self._simulation, _waiting_in(self._simulation)))
+        _unstopped.add(self)
 
     @property
     def name(self) -> str:
@@ -50,6 +57,16 @@ class Application(Face):
     def running(self) -> bool:
         """From its start to its stop."""
         return self._simulation.running
+
+    @property
+    def last_end(self) -> RunEnd:
+        """Why the last stretch of time has ended; TIME_UP before the first one."""
+        return RunEnd(self._simulation.last_end)
+
+    @property
+    def end_reason(self) -> str:
+        """Who has ended time before it was up, by a fault or a reaction, and when; empty: nobody."""
+        return _what_ended(self._simulation) if self.last_end in _ENDS_OF_TIME else ""
 
     def run_for(self, duration: float | str) -> RunEnd:
         """Lets so much time pass: seconds, or a text with a unit, `"60 s"`. Other threads of Python
@@ -75,8 +92,9 @@ class Application(Face):
 
     @property
     def faults(self) -> dict[str, str]:
-        """The components that are out of service, with their reasons."""
-        return {one.name: one.reason for one in self._simulation.components() if one.state == "Exception"}
+        """The components that are out of service, with their reasons; once it has stopped, those that were
+        by then."""
+        return self._simulation.faults()
 
     def stop(self) -> None:
         """Does what the deployment wants done before a stop, and stops; nothing if it has stopped.
@@ -90,10 +108,6 @@ class Application(Face):
         if in_order and has_errors(diagnostics):
             raise RunError(diagnostics)
 
-    def _wait(self, condition: Callable[[], bool], limit: float) -> bool:
-        """Lets time pass until `condition` is true; False if it is not within `limit` [s]."""
-        return self.run_until(condition, limit) is RunEnd.CONDITION_MET
-
     def __enter__(self) -> Application:
         return self
 
@@ -104,3 +118,36 @@ class Application(Face):
     def __repr__(self) -> str:
         state = f"at {self.now:.6g} s" if self.running else "stopped"
         return f"<Application '{self._name}' {state}, {len(self.components)} components>"
+
+
+def _waiting_in(simulation: _native.Simulation) -> Wait:
+    def wait(condition: Callable[[], bool], limit: float) -> bool:
+        end = RunEnd(simulation.run_for(limit, condition))
+        if end in _ENDS_OF_TIME:
+            raise StoodStill(_what_ended(simulation))
+        return end is RunEnd.CONDITION_MET
+    return wait
+
+
+# No more of it passes then.
+_ENDS_OF_TIME = (RunEnd.FAULTED, RunEnd.STOPPED_BY_REACTION)
+
+
+def _what_ended(simulation: _native.Simulation) -> str:
+    """Of an application that faulted or was stopped by a reaction: when, and who is why."""
+    # Whoever a reaction has stopped is in no fault, and has a reason.
+    reasons = simulation.faults() or {one.name: one.reason for one in simulation.components() if one.reason}
+    told = "; ".join(f"{name}: {reason}" for name, reason in reasons.items())
+    return f"the application ended at {simulation.now:.6g} s, {told}"
+
+
+# Of this process. A recording that nobody stopped would not be complete.
+_unstopped: weakref.WeakSet[Application] = weakref.WeakSet()
+
+
+@atexit.register
+def _stop_all() -> None:
+    for application in list(_unstopped):
+        # One that another thread drives until the end of the process cannot be stopped.
+        with contextlib.suppress(_native.Error):
+            application._stop(in_order=False)

@@ -192,6 +192,12 @@ class Face:
             raise AttributeError(name)
         return find(self._components, name)
 
+    def __setattr__(self, name: str, value: object) -> None:
+        if not name.startswith("_") and not hasattr(type(self), name):
+            find(self._components, name)  # or says which name is near
+            raise AttributeError(f"the component '{name}' cannot be set: set a property of it", name=name, obj=self)
+        super().__setattr__(name, value)
+
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *_next_parts(self._components, "")]
 

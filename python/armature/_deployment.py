@@ -53,7 +53,7 @@ class Deployment:
         record: a folder for its recordings, which is made; None: Reporters of the deployment write to
             the working directory.
         what: is recorded there, in `run.mcap`: names as a Reporter has them, `"PID*.Ref"`. None: all output
-            ports, unless the deployment has a Reporter of its own.
+            ports, unless the deployment has a Reporter of its own. Empty: what its own Reporters record.
         grants: acts of the operator, such as `"Arming.arm"`, that this program may do in addition to
             those that the deployment grants to scripts.
         Raises DeploymentError if it does not start, Refusal if the folder is in use.
@@ -64,8 +64,9 @@ class Deployment:
         self._loaded = None
         if what is None and not loaded.has_model("Reporter"):
             what = loaded.writers()
-        if record is not None and what is not None:
-            loaded = self._load(_recorded(self._file, list(what)))
+        recorded = list(what or ())
+        if record is not None and recorded:
+            loaded = self._load(_recorded(self._file, recorded))
         if not loaded.ok:  # its files may have changed
             raise DeploymentError(loaded.diagnostics)
         return Application(loaded, self._name, "" if record is None else os.fspath(record), list(grants))

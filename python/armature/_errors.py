@@ -24,6 +24,10 @@ class RunError(_native.Error):
         self.diagnostics = list(diagnostics)
 
 
+class StoodStill(_native.Error):
+    """What was waited for cannot come: a fault, or a reaction to old data, has ended the application's time."""
+
+
 def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
     return any(one.severity == "error" for one in diagnostics)
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from armature import _native
+from armature._errors import StoodStill
 
 
 class Handle(Protocol):
@@ -37,7 +38,8 @@ class Source(Protocol):
     def begin(self, component: str, command: str, arguments: tuple[object, ...]) -> Handle: ...
 
 
-# Lets time pass until the condition is true; False if it is not within so many seconds.
+# Lets time pass until the condition is true; False if it is not within so many seconds. Raises
+# StoodStill if time has ended before.
 Wait = Callable[[Callable[[], bool], float], bool]
 
 
@@ -94,11 +96,21 @@ class Command:
 
         Raises CommandError if it failed or did not end; it is under way then still.
         """
-        seconds = _native.seconds_of(limit)
-        if not self._handle.ended and not self._wait(lambda: self._handle.ended, seconds):
-            raise CommandError(f"{self._name} has not ended within {seconds:g} s", self)
+        self._wait_for_end(_native.seconds_of(limit))
         if not self._handle.succeeded:
             raise CommandError(f"{self._name} {self.stage}: {self.reason}", self)
+
+    def _wait_for_end(self, seconds: float) -> None:
+        if self._handle.ended:
+            return
+        try:
+            ended = self._wait(lambda: self._handle.ended, seconds)
+        except StoodStill as end:
+            ended = self._handle.ended
+            if not ended:
+                raise CommandError(f"{self._name} has not ended: {end}", self) from None
+        if not ended:
+            raise CommandError(f"{self._name} has not ended within {seconds:g} s", self)
 
     def __repr__(self) -> str:
         return f"<Command {self._name} ({self.stage})>"
@@ -270,7 +282,8 @@ class Event:
         return self._source.raised(self._component, self._about.name)
 
     def wait(self, limit: float | str) -> bool:
-        """Lets time pass until it is raised; False if it is not within `limit`."""
+        """Lets time pass until it is raised; False if it is not within `limit`. Raises Error if a fault ends
+        the application before."""
         before = self.raised
         return self._wait(lambda: self.raised > before, _native.seconds_of(limit))
 

@@ -28,7 +28,8 @@ class Samples:
     doc: str
     times: npt.NDArray[np.float64]  # [n], cycle times in s
     # [n]; [n, k] of lists; structured of structs; of texts and enumerations `str`; of lists whose sizes
-    # differ, and of structs with such lists, objects.
+    # differ, and of structs with such lists, objects. Numbers in structs are float64, int64 or uint64
+    # where whole numbers are above 2**53.
     values: Array
     # How many writes between the first and the last sample are missing, by their numbers: what did not
     # fit into the Reporter's buffer, and what its `on_change` leaves out.
@@ -127,35 +128,63 @@ def _from_json(texts: list[str]) -> Array:
     if not values:
         return np.array([])
     try:
-        return np.array([_row_of(value) for value in values], dtype=_dtype_of(values[0]))
-    except (TypeError, ValueError):
+        return _stacked(values)
+    except TypeError:
         return _objects(values)
 
 
-def _dtype_of(value: Any) -> Any:
-    """How numpy has such a value; TypeError if it does not."""
-    if isinstance(value, bool):
-        return np.bool_
-    if isinstance(value, (int, float)) or value is None:
-        return np.float64  # JSON does not tell 1 from 1.0, and nan is null
-    if isinstance(value, str):
-        return object
-    if isinstance(value, list):
-        return (_dtype_of(value[0]) if value else np.float64, (len(value),))
-    return [(name, _dtype_of(part)) for name, part in value.items()]
+def _stacked(values: list[Any]) -> Array:
+    """[n] of scalars and structs, [n, k] of lists; TypeError if they are not all of one form."""
+    if all(isinstance(value, bool) for value in values):
+        return np.array(values, dtype=np.bool_)
+    if all(value is None or isinstance(value, (int, float)) for value in values):
+        return _numbers(values)
+    if all(isinstance(value, str) for value in values):
+        return _objects(values)
+    if all(isinstance(value, list) for value in values):
+        return _lists(values)
+    if all(isinstance(value, dict) and value.keys() == values[0].keys() for value in values):
+        return _structs(values)
+    raise TypeError("values of several forms")
 
 
-def _row_of(value: Any) -> Any:
-    if value is None:
-        return np.nan
-    if isinstance(value, list):
-        return [_row_of(part) for part in value]
-    if isinstance(value, dict):
-        return tuple(_row_of(part) for part in value.values())
-    return value
+def _numbers(values: list[Any]) -> Array:
+    if any(isinstance(value, bool) for value in values):
+        raise TypeError("numbers and booleans")
+    # JSON does not tell 1 from 1.0, and nan is null. Whole numbers that a float does not tell from
+    # their neighbours stay what they are.
+    whole = all(isinstance(value, int) for value in values)
+    if whole and any(abs(value) > 2**53 for value in values):
+        return np.array(values, dtype=_whole_type(min(values), max(values)))
+    return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
+
+
+def _whole_type(least: int, most: int) -> Any:
+    if -(2**63) <= least and most < 2**63:
+        return np.int64
+    return np.uint64 if 0 <= least and most < 2**64 else object
+
+
+def _lists(values: list[Any]) -> Array:
+    count = len(values[0])
+    if any(len(value) != count for value in values):
+        raise TypeError("lists of several sizes")
+    if count == 0:
+        return np.empty((len(values), 0))
+    elements = _stacked([element for value in values for element in value])
+    return elements.reshape((len(values), count) + elements.shape[1:])
+
+
+def _structs(values: list[Any]) -> Array:
+    fields = {name: _stacked([value[name] for value in values]) for name in values[0]}
+    made = np.empty(len(values), dtype=[(name, one.dtype, one.shape[1:]) for name, one in fields.items()])
+    for name, one in fields.items():
+        made[name] = one
+    return made
 
 
 def _objects(values: list[Any]) -> Array:
     made = np.empty(len(values), dtype=object)
-    made[:] = values
+    for i, value in enumerate(values):  # numpy would take lists of equal sizes apart
+        made[i] = value
     return made

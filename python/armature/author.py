@@ -54,6 +54,8 @@ class Property(_Declared[T]):
     def __init__(self, initial: T, *, unit: str = "", doc: str = "", range: tuple[float, float] | None = None,
                  changeable_while_running: bool = False) -> None:
         super().__init__(type(initial), unit, doc)
+        if range is not None and not range[0] <= initial <= range[1]:  # type: ignore[operator]  # numbers have ranges
+            raise ValueError(f"the initial value {initial!r} is not in the range from {range[0]!r} to {range[1]!r}")
         self._initial = initial
         self._range = range
         self._changeable = changeable_while_running
@@ -144,7 +146,8 @@ class Output(_DeclaredPort[T]):
 class Component:
     """The base of components in Python. Hooks are overridden as needed; one that raises an exception
     faults its component, with the traceback in the log, and nothing else. From `configure` and `start`
-    it is a refusal."""
+    it is a refusal. Properties and ports are there in `__init__` and in hooks; in a thread that it begins they are
+    refused."""
 
     _host: _native.Host
 

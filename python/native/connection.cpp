@@ -14,6 +14,7 @@
 #include "armature/ride/node.hpp"
 #include "python/native/bindings.hpp"
 #include "python/native/simulation.hpp"
+#include "python/native/values.hpp"
 
 namespace armature::python {
 namespace {
@@ -81,7 +82,7 @@ py::tuple read(Connection& connection, const std::string& item) {
   if (!value.error.empty()) throw inspect::Refusal(value.error);
   const bool is_port = value.kind == "input" || value.kind == "output";
   if (is_port && !value.written) return py::make_tuple(py::none(), value.type, 0.0);
-  return py::make_tuple(value.value, value.type, base::to_seconds(value.age));
+  return py::make_tuple(text_to_python(value.value), value.type, base::to_seconds(value.age));
 }
 
 void bind_status_of_commands(py::module_& module) {
@@ -90,7 +91,7 @@ void bind_status_of_commands(py::module_& module) {
       .def_readonly("handle", &CommandStatus::handle)
       .def_readonly("ended", &CommandStatus::ended)
       .def_readonly("progress", &CommandStatus::progress)
-      .def_readonly("reason", &CommandStatus::reason)
+      .def_property_readonly("reason", text_of<CommandStatus>(&CommandStatus::reason))
       .def_property_readonly(
           "stage",
           [](const CommandStatus& self) { return std::string(component::name_of(self.stage)); })
@@ -160,7 +161,7 @@ void bind_connection(py::module_& module) {
             const auto result =
                 self.ask([&](View& view) { return view.call(component, operation, arguments); });
             if (!result.given) return py::none();
-            return py::make_tuple(result.value, result.type);
+            return py::make_tuple(text_to_python(result.value), result.type);
           },
           py::arg("component"), py::arg("operation"), py::arg("arguments"))
       .def(

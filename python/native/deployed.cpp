@@ -38,7 +38,8 @@ std::unique_ptr<remote::Network> make_network() {
   return remote::make_network(options);
 }
 
-deploy::DeploymentOptions options_for(const Request& request, remote::Network& network) {
+deploy::DeploymentOptions options_for(const Request& request, const ModelsOfLoad& models,
+                                      remote::Network& network) {
   deploy::DeploymentOptions options;
   options.document.overrides = request.overrides;
   options.library_folders = request.library_folders;
@@ -51,21 +52,21 @@ deploy::DeploymentOptions options_for(const Request& request, remote::Network& n
     return Made(network.make_inlets(inputs));
   };
   options.read_interface = remote::read_interface;
-  options.models = [&models = request.models](component::Registry& registry) {
-    const py::gil_scoped_acquire lock;
-    add_models(models, registry);
-  };
+  options.models = [&models](component::Registry& registry) { models.add_to(registry); };
   return options;
+}
+
+deploy::Deployment load_with_models(const Request& request, remote::Network& network) {
+  const ModelsOfLoad models(request.models);
+  const deploy::DeploymentOptions options = options_for(request, models, network);
+  return request.text.empty() ? deploy::load_deployment(request.file, options)
+                              : deploy::parse_deployment(request.text, request.file, options);
 }
 
 }  // namespace
 
 Deployed::Deployed(const Request& request)
-    : network_(make_network()),
-      deployment_(request.text.empty()
-                      ? deploy::load_deployment(request.file, options_for(request, *network_))
-                      : deploy::parse_deployment(request.text, request.file,
-                                                 options_for(request, *network_))) {
+    : network_(make_network()), deployment_(load_with_models(request, *network_)) {
   if (!deployment_.document.network.listen.empty()) {
     network_->check(deployment_.document, deployment_.diagnostics);
   }

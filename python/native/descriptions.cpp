@@ -8,6 +8,7 @@
 #include "armature/inspect/status.hpp"
 #include "armature/inspect/view.hpp"
 #include "python/native/bindings.hpp"
+#include "python/native/values.hpp"
 
 namespace armature::python {
 namespace {
@@ -26,7 +27,8 @@ void bind_status(py::module_& module) {
             return self.state ? std::string(component::name_of(*self.state)) : std::string();
           },
           "`Running`, `Stopped`, ...; empty: whoever hosts it does not say")
-      .def_readonly("reason", &ComponentStatus::reason, "why it does not run; may be empty")
+      .def_property_readonly("reason", text_of<ComponentStatus>(&ComponentStatus::reason),
+                             "why it does not run; may be empty")
       .def_readonly("thread", &ComponentStatus::thread);
 }
 
@@ -110,15 +112,16 @@ void bind_log(py::module_& module) {
           "level", [](const LogLine& self) { return std::string(rt::name_of(self.level)); },
           "`debug`, `info`, `warning` or `error`")
       .def_readonly("component", &LogLine::component, "or thread, or `application`")
-      .def_readonly("text", &LogLine::text)
+      .def_property_readonly("text", text_of<LogLine>(&LogLine::text))
       .def("__str__",
            [](const LogLine& self) {
-             return base::to_text(self.time.time_since_epoch()) + " " +
-                    std::string(rt::name_of(self.level)) + " " + self.component + ": " + self.text;
+             return text_to_python(base::to_text(self.time.time_since_epoch()) + " " +
+                                   std::string(rt::name_of(self.level)) + " " + self.component +
+                                   ": " + self.text);
            })
       .def("__repr__", [](const LogLine& self) {
-        return "<LogLine " + std::to_string(self.number) + " " + self.component + ": " + self.text +
-               ">";
+        return text_to_python("<LogLine " + std::to_string(self.number) + " " + self.component +
+                              ": " + self.text + ">");
       });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/base/diagnostic.hpp"
 #include "python/native/bindings.hpp"
+#include "python/native/values.hpp"
 
 namespace armature::python {
 namespace {
@@ -24,19 +25,22 @@ void bind_diagnostics(pybind11::module_& module) {
   pybind11::class_<Diagnostic>(
       module, "Diagnostic", "One finding: where, what is wrong, what was expected, how to mend it.")
       .def_property_readonly("severity", &severity_of, "`error`, `warning` or `note`")
-      .def_readonly("message", &Diagnostic::message)
-      .def_readonly("hint", &Diagnostic::hint, "how to mend it; may be empty")
+      .def_property_readonly("message", text_of<Diagnostic>(&Diagnostic::message))
+      .def_property_readonly("hint", text_of<Diagnostic>(&Diagnostic::hint),
+                             "how to mend it; may be empty")
       .def_readonly("name", &Diagnostic::name, "of a warning that may be accepted; else empty")
-      .def_property_readonly("file", [](const Diagnostic& self) { return self.where.file; })
+      .def_property_readonly("file",
+                             [](const Diagnostic& self) { return text_to_python(self.where.file); })
       .def_property_readonly(
           "line", [](const Diagnostic& self) { return self.where.line; },
           "counted from 1; 0: unknown")
       .def_property_readonly(
           "column", [](const Diagnostic& self) { return self.where.column; },
           "counted from 1; 0: unknown")
-      .def("__str__", [](const Diagnostic& self) { return base::to_text(self); })
-      .def("__repr__",
-           [](const Diagnostic& self) { return "<Diagnostic " + base::to_text(self) + ">"; });
+      .def("__str__", [](const Diagnostic& self) { return text_to_python(base::to_text(self)); })
+      .def("__repr__", [](const Diagnostic& self) {
+        return text_to_python("<Diagnostic " + base::to_text(self) + ">");
+      });
 }
 
 }  // namespace armature::python

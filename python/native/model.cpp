@@ -12,19 +12,14 @@ namespace {
 
 constexpr std::size_t kSlots = 64;
 
-/// Each has a function that makes components of its model. They stay until the process ends: a
-/// registry may still have the function.
-using Slots = std::array<std::shared_ptr<const Model>, kSlots>;
-
-Slots& slots() {
-  static Slots& all = *new Slots;
-  return all;
-}
+thread_local const ModelsOfLoad::Models* loading = nullptr;
 
 template <std::size_t I>
 std::unique_ptr<component::Component> make_in_slot(std::string name) {
-  const pybind11::gil_scoped_acquire lock;  // while another thread loads, its model may come here
-  return std::make_unique<PythonComponent>(std::move(name), slots()[I]);
+  if (loading == nullptr || I >= loading->size()) {
+    throw inspect::Refusal("components in Python are made while their deployment is loaded");
+  }
+  return std::make_unique<PythonComponent>(std::move(name), (*loading)[I]);
 }
 
 constexpr auto kMakers = []<std::size_t... I>(std::index_sequence<I...>) {
@@ -32,23 +27,21 @@ constexpr auto kMakers = []<std::size_t... I>(std::index_sequence<I...>) {
 }
 (std::make_index_sequence<kSlots>{});
 
-component::Registry::Make put_in_slot(const std::shared_ptr<const Model>& model) {
-  for (std::size_t i = 0; i < kSlots; ++i) {
-    auto& slot = slots()[i];
-    if (slot != nullptr && slot->name != model->name) continue;
-    slot = model;
-    return kMakers[i];
-  }
-  throw inspect::Refusal("a process has at most " + std::to_string(kSlots) +
-                         " models in Python: start another one");
-}
-
 }  // namespace
 
-void add_models(const std::vector<std::shared_ptr<const Model>>& models,
-                component::Registry& registry) {
-  for (const auto& model : models) {
-    const auto added = registry.add({model->name, model->doc, "python", put_in_slot(model)});
+ModelsOfLoad::ModelsOfLoad(const Models& models)
+    : models_(models), outer_(std::exchange(loading, &models)) {}
+
+ModelsOfLoad::~ModelsOfLoad() { loading = outer_; }
+
+void ModelsOfLoad::add_to(component::Registry& registry) const {
+  if (models_.size() > kSlots) {
+    throw inspect::Refusal("a deployment has at most " + std::to_string(kSlots) +
+                           " models in Python, found " + std::to_string(models_.size()));
+  }
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    const Model& model = *models_[i];
+    const auto added = registry.add({model.name, model.doc, "python", kMakers[i]});
     if (!added) throw inspect::Refusal(added.error());
   }
 }

@@ -35,10 +35,23 @@ struct Model {
   std::vector<Declared> members;
 };
 
-/// Adds the models of classes to a registry, which knows functions without a state only: so a
-/// process has 64 such classes at most. A class that is defined anew takes its elder's place.
-/// @thread one that holds the interpreter's lock
-void add_models(const std::vector<std::shared_ptr<const Model>>& models,
-                component::Registry& registry);
+/// The models of a deployment while this thread loads it. A registry knows functions without a
+/// state only: so a deployment has 64 such classes at most, which no other load sees.
+class ModelsOfLoad {
+ public:
+  using Models = std::vector<std::shared_ptr<const Model>>;
+
+  explicit ModelsOfLoad(const Models& models);
+  ModelsOfLoad(const ModelsOfLoad&) = delete;
+  ModelsOfLoad& operator=(const ModelsOfLoad&) = delete;
+  ~ModelsOfLoad();
+
+  /// Components are made of them by this thread only, as long as this object lives.
+  void add_to(component::Registry& registry) const;
+
+ private:
+  const Models& models_;
+  const Models* outer_;  ///< of a load in which a component began this one
+};
 
 }  // namespace armature::python

@@ -7,9 +7,11 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/checking/check_of_threads.hpp"
+#include "armature/inspect/view.hpp"
 #include "python/native/bindings.hpp"
 #include "python/native/hook.hpp"
 #include "python/native/hosted_members.hpp"
+#include "python/native/values.hpp"
 
 namespace armature::python {
 namespace {
@@ -27,11 +29,20 @@ class Host {
     return **component_;
   }
 
+  /// The component for its hooks only: meanwhile nobody else reads or writes what it has.
+  PythonComponent& in_its_hook() const {
+    if (!in_hook()) {
+      throw inspect::Refusal(
+          "a component in Python has its properties, ports and log in its hooks only: elsewhere, "
+          "as "
+          "in a thread of its own, keep values in plain attributes");
+    }
+    return component();
+  }
+
  private:
   std::shared_ptr<PythonComponent*> component_;
 };
-
-std::string text_of(py::handle value) { return py::str(value).cast<std::string>(); }
 
 }  // namespace
 
@@ -40,10 +51,16 @@ PythonComponent::PythonComponent(std::string name, std::shared_ptr<const Model> 
       model_(std::move(model)),
       self_(std::make_shared<PythonComponent*>(this)) {
   const py::gil_scoped_acquire lock;
-  for (const Declared& declared : model_->members) {
-    members_[declared.name] = make_member(*this, declared);
+  const HookScope scope;
+  try {
+    for (const Declared& declared : model_->members) {
+      members_[declared.name] = make_member(*this, declared);
+    }
+    object_ = model_->made_by(py::cast(Host(self_)));
+  } catch (...) {
+    *self_ = nullptr;  // whoever has kept the object keeps no component
+    throw;
   }
-  object_ = model_->made_by(py::cast(Host(self_)));
 }
 
 PythonComponent::~PythonComponent() {
@@ -114,11 +131,11 @@ std::string PythonComponent::note(py::error_already_set& thrown) {
       traceback.attr("format_exception")(thrown.type(), thrown.value(), thrown.trace());
   for (const py::handle part : parts) {
     for (const py::handle line : part.attr("rstrip")().attr("split")("\n")) {
-      log_error("{}", text_of(line));
+      log_error("{}", text_from_python(line));
     }
   }
   const py::list last = traceback.attr("format_exception_only")(thrown.type(), thrown.value());
-  const std::string reason = text_of(last[last.size() - 1].attr("strip")());
+  const std::string reason = text_from_python(last[last.size() - 1].attr("strip")());
   // The user's interrupt is not only the component's: the run ends with it, too.
   if (thrown.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
   return reason;
@@ -127,24 +144,25 @@ std::string PythonComponent::note(py::error_already_set& thrown) {
 void bind_components(py::module_& module) {
   py::class_<Host>(module, "Host")
       .def_property_readonly("name", [](const Host& self) { return self.component().name(); })
-      .def_property_readonly("time", [](const Host& self) { return self.component().time_s(); })
-      .def_property_readonly("period", [](const Host& self) { return self.component().period_s(); })
+      .def_property_readonly("time", [](const Host& self) { return self.in_its_hook().time_s(); })
+      .def_property_readonly("period",
+                             [](const Host& self) { return self.in_its_hook().period_s(); })
       .def(
           "get",
           [](const Host& self, const std::string& name) {
-            return self.component().member(name).get();
+            return self.in_its_hook().member(name).get();
           },
           py::arg("name"))
       .def(
           "set",
           [](const Host& self, const std::string& name, py::handle value) {
-            self.component().member(name).set(value);
+            self.in_its_hook().member(name).set(value);
           },
           py::arg("name"), py::arg("value"))
       .def(
           "log",
           [](const Host& self, const std::string& level, const std::string& text) {
-            self.component().log(level, text);
+            self.in_its_hook().log(level, text);
           },
           py::arg("level"), py::arg("text"));
   py::class_<Model, std::shared_ptr<Model>>(module, "Model")

@@ -129,7 +129,7 @@ py::object values_of(const record::McapRecording& recording, const Channel& chan
 
 py::list texts_of(const Channel& channel) {
   py::list texts;
-  for (const auto* sample : channel.samples) texts.append(py::str(sample->json));
+  for (const auto* sample : channel.samples) texts.append(text_to_python(sample->json));
   return texts;
 }
 
@@ -149,10 +149,10 @@ py::tuple load(const std::string& file) {
     const record::RecordedChannel& about = recording.channels[i];
     const Type* const type = type_of_numbers(about.type);
     py::dict channel;
-    channel["name"] = about.name;
-    channel["type"] = about.type;
-    channel["unit"] = about.unit;
-    channel["doc"] = about.doc;
+    channel["name"] = text_to_python(about.name);
+    channel["type"] = text_to_python(about.type);
+    channel["unit"] = text_to_python(about.unit);
+    channel["doc"] = text_to_python(about.doc);
     channel["times"] = times_of(by_channel[i]);
     channel["numbers"] = numbers_of(by_channel[i]);
     channel["json"] = type == nullptr;

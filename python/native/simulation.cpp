@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "python/native/simulation.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "armature/base/quoted.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/component/author.hpp"
@@ -77,15 +80,15 @@ class Interruption {
   base::Time last_ = platform::monotonic_now();
 };
 
-/// A number with a unit in that of the member: `"12 V"`.
-py::object in_unit_of(const Member& member, py::handle value, const std::string& name) {
-  const bool is_text = PyUnicode_Check(value.ptr()) && types::is_number(member.type());
+/// A number with a unit, `"12 V"`, in that of what it is for.
+py::object in_unit(std::string_view unit, const types::Type& type, py::handle value,
+                   const std::string& name) {
+  const bool is_text = PyUnicode_Check(value.ptr()) && types::is_number(type);
   if (!is_text) return py::reinterpret_borrow<py::object>(value);
-  const auto quantity = base::parse_quantity(value.cast<std::string>());
+  const auto quantity = base::parse_quantity(text_from_python(value));
   if (!quantity) throw py::value_error(name + ": " + quantity.error());
   if (quantity.value().unit.empty()) return py::float_(quantity.value().value);
-  const auto number =
-      base::convert(quantity.value().value, quantity.value().unit, std::string(member.unit()));
+  const auto number = base::convert(quantity.value().value, quantity.value().unit, unit);
   if (!number) throw py::value_error(name + ": " + number.error());
   return py::float_(number.value());
 }
@@ -95,7 +98,20 @@ types::Value value_for(const Member& member, py::handle value) {
   const bool inverts =
       member.property != nullptr && member.property->is_sign() && PyBool_Check(value.ptr());
   if (inverts) return from_python(value, types::type_of<bool>(), name);
-  return from_python(in_unit_of(member, value, name), member.type(), name);
+  return from_python(in_unit(member.unit(), member.type(), value, name), member.type(), name);
+}
+
+/// `time [s]` has the unit `s`.
+std::string_view unit_in(std::string_view argument) {
+  const std::size_t begin = argument.rfind('[');
+  if (begin == std::string_view::npos || !argument.ends_with(']')) return {};
+  return argument.substr(begin + 1, argument.size() - begin - 2);
+}
+
+bool includes(const std::vector<exec::Casualty>& all, const exec::Casualty& one) {
+  return std::ranges::any_of(all, [&](const auto& other) {
+    return other.component == one.component && other.reason == one.reason;
+  });
 }
 
 }  // namespace
@@ -113,11 +129,7 @@ inspect::LifeCycleChange change_named(const std::string& name) {
 class Simulation::Turn {
  public:
   explicit Turn(Simulation& simulation) : simulation_(simulation) {
-    if (in_hook()) {
-      throw Refusal(
-          "a component cannot command its application while it is updated: "
-          "connect ports instead");
-    }
+    expect_no_hook();
     const std::thread::id me = std::this_thread::get_id();
     std::thread::id driver{};
     const bool mine = simulation.driver_.compare_exchange_strong(driver, me) || driver == me;
@@ -183,10 +195,50 @@ base::Diagnostics Simulation::stop(bool in_order) {
   if (!running()) return {};
   const py::gil_scoped_release others_run;
   const auto leave = in_order ? exec::Leave::kInOrder : exec::Leave::kAfterMistake;
+  const std::vector<exec::Casualty> before = faults_now();
   base::Diagnostics problems = application_->run_before_stop(last_end_, nullptr, leave);
   problems.append(application_->stop());
   folder_ = platform::FolderLock();  // its recordings are complete
+  report_new_faults(before, problems);
   return problems;
+}
+
+/// A stop in which a component fails is not in good order.
+void Simulation::report_new_faults(const std::vector<exec::Casualty>& before,
+                                   base::Diagnostics& problems) {
+  for (const exec::Casualty& one : faults_when_stopped()) {
+    if (includes(before, one)) continue;
+    problems.error({},
+                   base::quoted(one.component) + " faulted while it was stopped: " + one.reason);
+  }
+}
+
+void Simulation::expect_running() const {
+  if (!running()) {
+    throw Refusal("the application has stopped: make a new one, by `deployment.application()`");
+  }
+}
+
+const char* Simulation::last_end() const { return name_of(last_end_); }
+
+std::vector<exec::Casualty> Simulation::faults() {
+  const Turn turn(*this);
+  return running() ? faults_now() : faults_when_stopped();
+}
+
+std::vector<exec::Casualty> Simulation::faults_now() {
+  std::vector<exec::Casualty> faults;
+  for (const auto& one : view_->components()) {
+    if (one.state != component::State::kException) continue;
+    faults.push_back({one.name, component::State::kException, one.reason});
+  }
+  return faults;
+}
+
+std::vector<exec::Casualty> Simulation::faults_when_stopped() const {
+  std::vector<exec::Casualty> faults = application_->casualties();
+  std::erase_if(faults, [](const auto& one) { return one.state != component::State::kException; });
+  return faults;
 }
 
 exec::RunEnd Simulation::run_until(base::Time end, const py::object& condition) {
@@ -209,6 +261,7 @@ exec::RunEnd Simulation::run_until(base::Time end, const py::object& condition) 
 const char* Simulation::run_for(base::Duration duration, const py::object& condition) {
   const Turn turn(*this);
   turn.expect_outermost();
+  expect_running();
   last_end_ = run_until(base::later(application_->now(), duration), condition);
   return name_of(last_end_);
 }
@@ -216,6 +269,7 @@ const char* Simulation::run_for(base::Duration duration, const py::object& condi
 void Simulation::step(base::Duration at_most) {
   const Turn turn(*this);
   turn.expect_outermost();
+  expect_running();
   const py::gil_scoped_release others_run;
   bool moved_on = false;
   last_end_ = application_->run_until(base::later(application_->now(), at_most),
@@ -251,6 +305,7 @@ std::uint64_t Simulation::raised(const std::string& component, const std::string
 
 void Simulation::change(const std::string& component, const std::string& change) {
   const Turn turn(*this);
+  expect_running();
   const py::gil_scoped_release others_run;
   view_->change(component, change_named(change));
 }
@@ -259,9 +314,16 @@ Member Simulation::find(const std::string& component, const std::string& member)
   return answer_of(inspect::find_member(*application_, component + "." + member));
 }
 
+Member Simulation::find_value(const std::string& component, const std::string& name) {
+  Member member = find(component, name);
+  if (member.has_value()) return member;
+  throw Refusal(base::quoted(member.name()) + " has no value: it is " +
+                (member.operation != nullptr ? "an operation, which is called" : "an event"));
+}
+
 Reading Simulation::read(const std::string& component, const std::string& name) {
   const Turn turn(*this);
-  const Member member = find(component, name);
+  const Member member = find_value(component, name);
   const auto readings = [&] {
     const py::gil_scoped_release others_run;
     return inspect::read_members(*application_, {member});
@@ -274,7 +336,7 @@ Reading Simulation::read(const std::string& component, const std::string& name) 
 
 void Simulation::write(const std::string& component, const std::string& name, py::handle value) {
   const Turn turn(*this);
-  const Member member = find(component, name);
+  const Member member = find_value(component, name);
   answer_of(inspect::check_settable(*application_, member, kCaller));
   const types::Value wanted = value_for(member, value);
   const py::gil_scoped_release others_run;
@@ -287,7 +349,10 @@ std::vector<types::Value> Simulation::arguments_of(const Member& operation,
   const auto& wanted = operation.operation->signature().arguments;
   std::vector<types::Value> values;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    values.push_back(from_python(given[i], *wanted[i].type, inspect::argument_name(operation, i)));
+    const std::string name = inspect::argument_name(operation, i);
+    const types::Type& type = *wanted[i].type;
+    values.push_back(
+        from_python(in_unit(unit_in(wanted[i].name), type, given[i], name), type, name));
   }
   return values;
 }

@@ -49,7 +49,13 @@ class Simulation {
   /// @thread any
   std::int64_t now_ns() const { return now_ns_.load(std::memory_order_relaxed); }
 
-  /// Lets time pass, until `condition` is true if it is not None.
+  /// Why the last stretch of time has ended.
+  const char* last_end() const;
+  /// Who is out of service; after the stop, who was by then.
+  std::vector<exec::Casualty> faults();
+
+  /// Lets time pass, until `condition` is true if it is not None. After the stop there is none that
+  /// could, for this function and the next one.
   const char* run_for(base::Duration duration, const pybind11::object& condition);
   /// To the next instant at which something is due.
   void step(base::Duration at_most);
@@ -73,7 +79,12 @@ class Simulation {
   class Turn;
 
   exec::RunEnd run_until(base::Time end, const pybind11::object& condition);
+  void expect_running() const;
+  std::vector<exec::Casualty> faults_now();
+  std::vector<exec::Casualty> faults_when_stopped() const;
+  void report_new_faults(const std::vector<exec::Casualty>& before, base::Diagnostics& problems);
   inspect::Member find(const std::string& component, const std::string& member);
+  inspect::Member find_value(const std::string& component, const std::string& member);
   std::vector<types::Value> arguments_of(const inspect::Member& operation,
                                          const pybind11::tuple& given);
 

@@ -4,7 +4,9 @@
 #include "armature/base/seconds.hpp"
 #include "armature/runner/run_options.hpp"
 #include "python/native/bindings.hpp"
+#include "python/native/hook.hpp"
 #include "python/native/simulation.hpp"
+#include "python/native/values.hpp"
 
 namespace armature::python {
 namespace {
@@ -41,9 +43,12 @@ void bind_command(py::module_& module) {
       .def_property_readonly(
           "succeeded",
           [](const CommandHandle& self) { return self.stage() == CommandStage::kDone; })
-      .def_property_readonly("reason",
-                             [](const CommandHandle& self) { return std::string(self.reason()); })
-      .def("cancel", &CommandHandle::cancel);
+      .def_property_readonly(
+          "reason", [](const CommandHandle& self) { return text_to_python(self.reason()); })
+      .def("cancel", [](CommandHandle& self) {
+        expect_no_hook();
+        return self.cancel();
+      });
 }
 
 }  // namespace
@@ -61,6 +66,15 @@ void bind_simulation(py::module_& module) {
           "stop", [](Simulation& self, bool in_order) { return self.stop(in_order).all(); },
           py::arg("in_order"))
       .def_property_readonly("running", &Simulation::running)
+      .def_property_readonly("last_end", &Simulation::last_end)
+      .def("faults",
+           [](Simulation& self) {
+             py::dict faults;
+             for (const auto& fault : self.faults()) {
+               faults[py::str(fault.component)] = text_to_python(fault.reason);
+             }
+             return faults;
+           })
       .def_property_readonly(
           "now",
           [](const Simulation& self) { return base::to_seconds(base::Duration(self.now_ns())); })

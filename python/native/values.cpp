@@ -17,13 +17,6 @@ namespace py = pybind11;
 using types::Kind;
 using types::Type;
 
-py::object text_to_python(std::string_view text) {
-  PyObject* const made =
-      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
-  if (made == nullptr) throw py::error_already_set();
-  return py::reinterpret_steal<py::object>(made);
-}
-
 py::object scalar_to_python(const Type& type, const void* value) {
   return types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) -> py::object {
     T scalar{};
@@ -78,7 +71,7 @@ class Reader {
   [[noreturn]] static void refuse(const std::string& name, const std::string& expected,
                                   py::handle found) {
     throw py::value_error(name + " must be " + expected + ", found " +
-                          py::repr(found).cast<std::string>());
+                          text_from_python(py::repr(found)));
   }
   template <typename T>
   static void read_scalar(py::handle from, const Type& type, void* to, const std::string& name);
@@ -93,10 +86,26 @@ bool is_bool(py::handle value) {
          py::isinstance(value, py::module_::import("numpy").attr("bool_"));
 }
 
+bool is_of_numpy(py::handle value) { return py::isinstance<py::array>(value); }
+
+/// [n] or more; a scalar of numpy may be an array, too.
+bool has_elements(py::handle value) {
+  return is_of_numpy(value) && py::reinterpret_borrow<py::array>(value).ndim() > 0;
+}
+
+/// What has elements that are values: a text and bytes have letters, a dict has keys.
+bool is_sequence(py::handle value) {
+  if (is_of_numpy(value)) return has_elements(value);
+  PyObject* const one = value.ptr();
+  return PySequence_Check(one) != 0 && !PyUnicode_Check(one) && !PyDict_Check(one) &&
+         !PyBytes_Check(one) && !PyByteArray_Check(one);
+}
+
 /// A float, an int, or what numpy has for them.
 std::optional<double> float_of(py::handle value) {
   if (PyFloat_CheckExact(value.ptr())) return PyFloat_AS_DOUBLE(value.ptr());
   if (is_bool(value) || PyUnicode_Check(value.ptr())) return std::nullopt;
+  if (has_elements(value)) return std::nullopt;  // one of one element is a number for numpy
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() == nullptr) return number;
   PyErr_Clear();
@@ -146,6 +155,10 @@ void Reader::read_scalar(py::handle from, const Type& type, void* to, const std:
 
 void Reader::read_text(py::handle from, const Type& type, void* to, const std::string& name) {
   if (!PyUnicode_Check(from.ptr())) refuse(name, "a text", from);
+  if (PyUnicode_AsUTF8(from.ptr()) == nullptr) {
+    PyErr_Clear();
+    refuse(name, "a text that UTF-8 can say", from);
+  }
   const auto text = from.cast<std::string>();
   if (type.kind == Kind::kFixedText && text.size() > type.count) {
     throw py::value_error(name + " must have at most " + std::to_string(type.count) +
@@ -156,7 +169,7 @@ void Reader::read_text(py::handle from, const Type& type, void* to, const std::s
 
 void Reader::read_enumerator(py::handle from, const Type& type, void* to, const std::string& name) {
   if (!PyUnicode_Check(from.ptr())) refuse(name, types::enumerator_list(type), from);
-  const auto text = from.cast<std::string>();
+  const std::string text = text_from_python(from);
   const types::Enumerator* const found = types::find_enumerator(type, text);
   if (found == nullptr) {
     const std::string hint = types::near_enumerator(type, text);
@@ -169,9 +182,7 @@ void Reader::read_list(py::handle from, const Type& type, void* to, const std::s
   const bool is_array = type.kind == Kind::kArray;
   const std::string expected =
       is_array ? "a sequence of " + std::to_string(type.count) + " elements" : "a sequence";
-  const bool is_sequence = PySequence_Check(from.ptr()) != 0 && !PyUnicode_Check(from.ptr()) &&
-                           !PyDict_Check(from.ptr());
-  if (!is_sequence) refuse(name, expected, from);
+  if (!is_sequence(from)) refuse(name, expected, from);
   const auto sequence = py::reinterpret_borrow<py::sequence>(from);
   const std::size_t count = sequence.size();
   if (is_array && count != type.count) refuse(name, expected, from);
@@ -189,7 +200,7 @@ void Reader::read_struct(py::handle from, const Type& type, void* to, const std:
   std::vector<std::string> known;
   for (const types::Field& field : type.fields) known.emplace_back(field.name);
   for (const auto& [key, value] : given) {
-    const auto text = py::str(key).cast<std::string>();
+    const std::string text = text_from_python(key);
     if (std::ranges::find(known, text) != known.end()) continue;
     throw py::value_error(name + " has no field '" + text + "'" +
                           base::suggestion_in_brackets(text, known));
@@ -217,6 +228,21 @@ void Reader::read(py::handle from, const Type& type, void* to, const std::string
 }
 
 }  // namespace
+
+py::object text_to_python(std::string_view text) {
+  PyObject* const made =
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+  if (made == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(made);
+}
+
+std::string text_from_python(py::handle value) {
+  const py::str text(value);
+  const auto bytes = py::reinterpret_steal<py::bytes>(
+      PyUnicode_AsEncodedString(text.ptr(), "utf-8", "backslashreplace"));
+  if (!bytes) throw py::error_already_set();
+  return bytes;
+}
 
 std::optional<py::dtype> dtype_of(const Type& type) {
   if (types::is_number(type) || type.kind == Kind::kBool) return scalar_dtype(type);

@@ -6,6 +6,8 @@ import math
 import os
 import random
 import signal
+import subprocess
+import tempfile
 import time
 from pathlib import Path
 
@@ -54,5 +56,35 @@ def deadly(point, folder):
 def slow(point, folder):
     """Says that it has begun, and takes its time: others can end its worker meanwhile."""
     Path(point["marks"], f"{point['x']}-{os.getpid()}").touch()
-    time.sleep(point.get("seconds", 0.1))
+    time.sleep(point.get("takes", 0.1))
     return {"cost": math.exp(-point["x"])}
+
+
+def with_child(point, folder):
+    """Starts another process, and waits for it."""
+    child = subprocess.Popen(["sleep", "600"])
+    Path(point["marks"], str(child.pid)).touch()
+    child.wait()
+    return {"cost": 0.0}
+
+
+def leaves_and_dies(point, folder):
+    """A run that is killed while it has files of its own."""
+    left = tempfile.mkdtemp()
+    Path(point["marks"], "where").write_text(left)
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def slow_with_folder(point, folder):
+    """Writes its result in two steps, if it is recorded."""
+    if folder is None:
+        return {"cost": point["x"]}
+    Path(folder, "left.txt").write_text("half")
+    Path(point["marks"], "begun").touch()
+    time.sleep(600 if point["x"] == 1 and not Path(point["marks"], "again").exists() else 0)
+    Path(folder, "left.txt").write_text("whole")
+    return {"cost": point["x"]}
+
+
+def names_metric(point, folder):
+    return {point["metric"]: 1.0}

@@ -4,11 +4,12 @@ import _thread
 import subprocess
 import sys
 import threading
+import weakref
 
 import pytest
 
 import armature
-from armature import RunEnd
+from armature import RunEnd, author
 
 
 def test_time_passes_as_it_is_told(janus):
@@ -172,6 +173,99 @@ def test_one_that_nobody_stopped_stops_with_its_process(janus_file):
                "app.run_for(0.5)\nprint(app.now)\n")
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert (run.returncode, run.stdout, run.stderr) == (0, "0.5\n", "")
+
+
+def test_one_that_nobody_refers_to_is_gone_at_once(tmp_path, janus_file):
+    import gc
+    gc.disable()
+    try:
+        deployment = armature.load(janus_file)
+        app = deployment.application(record=tmp_path)
+        app.run_for(0.1)
+        app.PID1.Out.value
+        gone = weakref.ref(app)
+        del app
+        assert gone() is None
+        with deployment.application(record=tmp_path):  # the folder is free
+            pass
+    finally:
+        gc.enable()
+
+
+PROGRAM = """
+import armature
+from armature.author import Component, Output
+
+def main():
+    class Knowing(Component):
+        "Knows its application, so that both keep each other."
+        out = Output(float, doc="the time")
+        applications = []
+
+        def update(self):
+            self.out = self.time
+
+    app = armature.load("knowing.yaml", components=[Knowing]).application(record="out")
+    Knowing.applications.append(app)
+    app.run_for(0.5)
+
+main()
+"""
+
+
+def test_a_program_that_ends_without_a_stop_leaves_a_whole_recording(tmp_path):
+    (tmp_path / "knowing.yaml").write_text("application: a\n"
+                                           "components: {One: {model: Knowing, activity: {periodic: 10 ms}}}\n")
+    run = subprocess.run([sys.executable, "-c", PROGRAM], cwd=tmp_path, capture_output=True, text=True)
+    assert (run.returncode, run.stderr) == (0, "")
+    recording = armature.read_recording(tmp_path / "out")
+    assert recording.complete and recording["One.out"].times[-1] == pytest.approx(0.5, abs=0.02)
+
+
+FAULTING = """application: faulting
+on_fault: stop_all
+components:
+  Failing: {model: Failing, activity: {periodic: 10 ms}}
+"""
+
+
+class Failing(author.Component):
+    """Faults at 0.8 s."""
+
+    out = author.Output(float, doc="the time")
+
+    def update(self) -> None:
+        if self.time > 0.795:
+            raise RuntimeError("it is enough")
+        self.out = self.time
+
+
+def test_what_a_fault_ends_is_not_waited_for(janus_file, tmp_path):
+    file = tmp_path / "head.yaml"
+    file.write_text(f"include: {janus_file}\non_fault: stop_all\n"
+                    "components: {Failing: {model: Failing, activity: {periodic: 10 ms, scheduler: other}}}\n")
+    with armature.load(file, components=[Failing]).application() as app:
+        app.run_for("100 ms")
+        app.Arming.arm()
+        assert app.last_end is RunEnd.CONDITION_MET
+        move = app.Generator.moveTo.begin([0.5, 0.5], 5.0)
+        with pytest.raises(armature.CommandError, match="has not ended: .* at 0.79 s, Failing: RuntimeError: it is"):
+            move.wait()
+        assert app.last_end is RunEnd.FAULTED and app.now < 1.0
+        with pytest.raises(armature.Error, match="Failing: RuntimeError"):
+            app.Arming.Disarm.wait("5 s")
+
+
+def test_one_that_has_stopped_goes_on_in_no_way(tmp_path):
+    file = tmp_path / "faulting.yaml"
+    file.write_text(FAULTING)
+    with armature.load(file, components=[Failing]).application() as app:
+        assert app.run_for("2 s") is RunEnd.FAULTED
+    assert app.faults == {"Failing": "RuntimeError: it is enough"}
+    for attempt in (lambda: app.run_for(1), app.step, app.Failing.start, app.Failing.reset):
+        with pytest.raises(armature.Refusal, match="has stopped"):
+            attempt()
+    assert app.Failing.out.value == pytest.approx(0.79)
 
 
 def test_a_folder_of_recordings_is_one_run_s(tmp_path, janus_file):

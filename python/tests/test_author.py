@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Components in Python: declared, connected, updated; a crash of one faults it and nothing else."""
+import threading
+
 import numpy as np
 import pytest
 
@@ -181,6 +183,177 @@ def test_a_class_that_is_defined_anew_takes_its_elder_s_place(file):
         with armature.load(file, components=[Again]).application() as app:
             app.run_for(0.01)
             assert app.One.out.value == number
+
+
+@pytest.mark.parametrize("in_a_thread", [True, False])
+def test_a_load_has_its_own_classes_while_another_one_has_others_of_their_names(file, in_a_thread):
+    file.write_text("application: a\ncomponents:\n  One: {model: First, activity: {periodic: 10 ms}}\n"
+                    "  Two: {model: Same, activity: {periodic: 10 ms}}\n")
+    inner = file.with_name("inner.yaml")
+    inner.write_text("application: b\ncomponents: {Two: {model: Same, activity: {periodic: 10 ms}}}\n")
+
+    def class_of(number):
+        class Same(Component):
+            """One of many."""
+
+            out = Output(int, doc="which")
+
+            def update(self) -> None:
+                self.out = number
+
+        return Same
+
+    others = []
+
+    class First(Component):
+        """Is made while its deployment is loaded."""
+
+        def __init__(self) -> None:
+            def load_other():
+                others.append(armature.load(inner, components=[class_of(2)]))
+
+            if in_a_thread:
+                thread = threading.Thread(target=load_other)
+                thread.start()
+                thread.join()
+            else:
+                load_other()
+
+    outer = armature.load(file, components=[First, class_of(1)])
+    for deployment, number in ((outer, 1), (others[0], 2)):
+        with deployment.application() as app:
+            app.run_for(0.01)
+            assert app.Two.out.value == number
+
+
+def test_a_deployment_has_64_classes_at_most(file):
+    classes = [type(f"Class{i}", (Component,), {"__doc__": "One of many."}) for i in range(65)]
+    file.write_text("application: a\ncomponents: {One: {model: Class63, activity: {periodic: 10 ms}}}\n")
+    armature.load(file, components=classes[:64])
+    with pytest.raises(armature.Refusal, match="at most 64 models in Python, found 65"):
+        armature.load(file, components=classes)
+
+
+def test_one_that_could_not_be_made_has_no_component(file):
+    kept = []
+
+    class Failing(Component):
+        """Cannot be made."""
+
+        out = Output(float, doc="what it would write")
+
+        def __init__(self) -> None:
+            kept.append(self)
+            raise RuntimeError("not today")
+
+    file.write_text("application: a\ncomponents: {One: {model: Failing, activity: {periodic: 10 ms}}}\n")
+    with pytest.raises(armature.DeploymentError, match="not today"):
+        armature.load(file, components=[Failing])
+    with pytest.raises(ValueError, match="is gone"):
+        kept[0].name
+    with pytest.raises(armature.Refusal, match="in its hooks only"):
+        kept[0].out
+
+
+def test_texts_that_are_cut_within_a_letter_are_read(file):
+    class Wordy(Component):
+        """Says more than a line of the log has room for."""
+
+        def update(self) -> None:
+            for begin in ("", "a"):  # wherever the cut is, one of them is cut within a letter
+                self.log(begin + "ö" * 2000)
+            raise RuntimeError("ü" * 2000 if self.name == "One" else "a" + "ü" * 2000)
+
+    file.write_text("application: a\ncomponents:\n  One: {model: Wordy, activity: {periodic: 10 ms}}\n"
+                    "  Two: {model: Wordy, activity: {periodic: 10 ms}}\n")
+    with armature.load(file, components=[Wordy]).application() as app:
+        app.run_for(0.01)
+        assert sum("öö" in line.text and "öö" in str(line) for line in app.log) == 4
+        assert all("üü" in reason for reason in app.faults.values()) and len(app.faults) == 2
+        assert "üü" in app.One.reason and "üü" in app.Two.reason
+
+
+def test_an_exception_with_what_is_no_text_faults_its_component(file):
+    class Odd(Component):
+        """Raises half a letter."""
+
+        def update(self) -> None:
+            raise RuntimeError("\ud800")
+
+    file.write_text("application: a\ncomponents: {One: {model: Odd, activity: {periodic: 10 ms}}}\n")
+    with armature.load(file, components=[Odd]).application() as app:
+        app.run_for(0.01)
+        assert app.faults == {"One": "RuntimeError: \\ud800"}
+
+
+def test_an_exception_in_a_stop_is_told_by_the_stop(file):
+    class Clinging(Component):
+        """Does not want to end."""
+
+        def stop(self) -> None:
+            raise RuntimeError("not yet")
+
+    file.write_text("application: a\ncomponents: {One: {model: Clinging, activity: {periodic: 10 ms}}}\n")
+    app = armature.load(file, components=[Clinging]).application()
+    app.run_for(0.01)
+    with pytest.raises(armature.RunError, match="'One'.*RuntimeError: not yet"):
+        app.stop()
+    assert app.faults == {"One": "RuntimeError: not yet"} and not app.running
+
+
+def test_ports_are_written_in_hooks_only(file):
+    told = []
+
+    class Threaded(Component):
+        """Has a thread of its own."""
+
+        out = Output(float, doc="nothing")
+        gain = Property(1.0, doc="none", changeable_while_running=True)
+
+        def update(self) -> None:
+            thread = threading.Thread(target=self.meddle)
+            thread.start()
+            thread.join()
+
+        def meddle(self) -> None:
+            for attempt in (lambda: setattr(self, "out", 1.0), lambda: self.gain, lambda: self.log("x"),
+                            lambda: self.time):
+                try:
+                    attempt()
+                except armature.Refusal as refusal:
+                    told.append(str(refusal))
+
+    file.write_text("application: a\ncomponents: {One: {model: Threaded, activity: {periodic: 10 ms}}}\n")
+    with armature.load(file, components=[Threaded]).application() as app:
+        app.run_for(0.01)
+    assert len(told) >= 4 and all("in its hooks only" in one for one in told)
+
+
+def test_a_command_is_not_cancelled_by_a_component(janus_file, tmp_path):
+    commands = []
+
+    class Canceller(Component):
+        """Reaches around its ports."""
+
+        def update(self) -> None:
+            if commands:
+                commands[0].cancel()
+
+    file = tmp_path / "head.yaml"
+    file.write_text(f"include: {janus_file}\n"
+                    "components: {Canceller: {model: Canceller, activity: {periodic: 10 ms, scheduler: other}}}\n")
+    with armature.load(file, components=[Canceller]).application() as app:
+        app.run_for("100 ms")
+        app.Arming.arm()
+        commands.append(app.Generator.moveTo.begin([0.1, 0.1], 0.5))
+        app.run_for("100 ms")
+        assert "cannot command its application" in app.faults["Canceller"]
+        assert commands[0].stage != "cancelled"
+
+
+def test_an_initial_value_is_in_its_range():
+    with pytest.raises(ValueError, match="5.0 is not in the range from 0 to 1"):
+        Property(5.0, range=(0, 1))
 
 
 def test_what_its_class_declares_wrongly_is_told_at_once():

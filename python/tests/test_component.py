@@ -64,6 +64,17 @@ def test_what_the_component_refuses_is_a_refusal(janus):
         janus.PID1.PeerName = "Joint1"
 
 
+def test_what_has_no_value_is_not_set(janus):
+    with pytest.raises(armature.Refusal, match="'Generator.moveTo' has no value: it is an operation"):
+        janus.Generator.moveTo = 1
+    with pytest.raises(armature.Refusal, match="'Arming.Stop' has no value: it is an event"):
+        janus.Arming.Stop = 1
+    with pytest.raises(AttributeError, match="did you mean 'PID2'"):
+        janus.PIDD = 1
+    with pytest.raises(AttributeError, match="'PID1' cannot be set"):
+        janus.PID1 = 1
+
+
 def test_enumerations_are_texts_and_lists_are_arrays(janus):
     assert janus.Cards.mode == "synchronous"
     with pytest.raises(ValueError, match="synchronous"):
@@ -139,6 +150,25 @@ def test_wrong_arguments_are_told_by_their_names(armed_janus):
         move("there", 1.0)
     with pytest.raises(TypeError, match="not a command"):
         armed_janus.PID1.operations["reset"].begin()
+
+
+@pytest.mark.parametrize("wrong", [b"\x00\x01", bytearray(2), np.array([[1.0], [1.0]]), np.array(1.0), "\ud800"])
+def test_what_is_no_list_of_numbers_is_refused(armed_janus, wrong):
+    with pytest.raises(ValueError, match="argument 1"):
+        armed_janus.Generator.moveTo.begin(wrong, 2)
+
+
+def test_an_argument_may_have_a_unit(armed_janus):
+    begin = armed_janus.now
+    armed_janus.Generator.moveTo([0.1, 0.1], "500 ms")
+    assert armed_janus.now == pytest.approx(begin + 0.5, abs=0.05)
+    with pytest.raises(ValueError, match="argument 2"):
+        armed_janus.Generator.moveTo([0.1, 0.1], "3 m")
+
+
+def test_a_text_that_utf_8_cannot_say_is_refused(janus):
+    with pytest.raises(ValueError, match="a text that UTF-8 can say"):
+        janus.PID1.PeerName = "\ud800"
 
 
 def test_operations_are_called(janus):

@@ -93,6 +93,50 @@ def test_structs_become_structured_arrays():
     assert len(_from_json([])) == 0
 
 
+def test_lists_of_what_json_tells_are_arrays_with_a_column_for_each_element():
+    from armature._recording import _from_json
+
+    def read(*values):
+        return _from_json([json.dumps({"value": value}) for value in values])
+
+    np.testing.assert_array_equal(read([1.5, 2, 3], [4, None, 6]), [[1.5, 2, 3], [4, np.nan, 6]])
+    np.testing.assert_array_equal(read([True, False], [False, False]), [[True, False], [False, False]])
+    texts = read(["a", "b"], ["c", "d"])
+    assert texts.dtype == object and texts.tolist() == [["a", "b"], ["c", "d"]]
+    poses = read([{"x": 1}, {"x": 2}], [{"x": 3}, {"x": 4}])
+    assert poses.shape == (2, 2) and poses["x"].tolist() == [[1, 2], [3, 4]]
+    assert read([], []).shape == (2, 0)
+    uneven = read(["a"], ["a", "b"], [])
+    assert uneven.dtype == object and uneven.tolist() == [["a"], ["a", "b"], []]
+    deep = read([[1], [1, 2]], [[1], [3, 4]])
+    assert deep.shape == (2,) and deep[1] == [[1], [3, 4]]
+
+
+def test_lists_in_structs_are_neither_spread_nor_cut():
+    from armature._recording import _from_json
+    uneven = _from_json(['{"q": [1, 2, 3], "n": "a"}', '{"q": [5], "n": "b"}'])
+    assert uneven.dtype == object and uneven[1] == {"q": [5], "n": "b"}
+    even = _from_json(['{"names": ["a", "b"], "q": [1, 2]}', '{"names": ["c", "d"], "q": [3, 4]}'])
+    assert even["names"].tolist() == [["a", "b"], ["c", "d"]] and even["q"].tolist() == [[1, 2], [3, 4]]
+
+
+def test_large_whole_numbers_in_structs_keep_their_digits():
+    from armature._recording import _from_json
+    for large in (2**53 + 1, -(2**63), 2**64 - 1):
+        values = _from_json([json.dumps({"time": large, "x": 1}), json.dumps({"time": 1, "x": 2.5})])
+        assert values["time"].tolist() == [large, 1] and values["x"].tolist() == [1.0, 2.5]
+    assert _from_json(['{"a": 18446744073709551615}', '{"a": -1}'])["a"].tolist() == [2**64 - 1, -1]
+
+
+def test_an_array_port_of_a_robot_is_recorded_as_it_was(tmp_path, janus_file):
+    wam = janus_file.parents[2] / "wam/deployments/computed_torque4.yaml"
+    with armature.load(wam).application(record=tmp_path, what=["WAM.gravity"]) as app:
+        app.run_for(0.02)
+    gravity = armature.read_recording(tmp_path)["WAM.gravity"]
+    assert gravity.type == "array<double,3>" and gravity.values.dtype == np.float64
+    np.testing.assert_allclose(gravity.values, np.tile([0.0, 0.0, -9.81], (len(gravity), 1)), atol=0.01)
+
+
 def test_a_recording_that_was_cut_off_is_read_as_far_as_it_is_whole(folder, tmp_path):
     content = (folder / "run.mcap").read_bytes()
     (tmp_path / "run.mcap").write_bytes(content[:len(content) // 2])

@@ -74,7 +74,7 @@ def test_a_worker_killed_in_the_middle_has_its_runs_done_again_with_the_same_res
     assert results.outcomes == {"done": 16}
     begun = [mark.name.split("-")[0] for mark in tmp_path.iterdir() if "-" in mark.name]
     assert len(begun) > 16  # a run was done twice
-    undisturbed = quiet(sweep_runs.slow, [dict(p, seconds=0.0) for p in some], workers=1)
+    undisturbed = quiet(sweep_runs.slow, [dict(p, takes=0.0) for p in some], workers=1)
     assert [run.metrics for run in results] == [run.metrics for run in undisturbed]
 
 

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sweeps of a real deployment: the head of Janus, simulated."""
+import importlib.util
 import os
 import re
 import signal
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -12,8 +14,9 @@ import pytest
 from sweep_checks import bits
 
 import armature
-from armature.sweeps import Following, JournalError, Pool
-from armature.sweeps.experiment import Simulated, digest_of
+from armature import author
+from armature.sweeps import Following, JournalError, Pool, Results, Run
+from armature.sweeps.experiment import Simulated
 from armature.sweeps.run import Task, run_task
 
 pytest.importorskip("cloudpickle")
@@ -133,18 +136,17 @@ def test_a_sweep_goes_on_where_it_was_until_a_file_of_its_deployment_changes(tmp
         again([{"PID1.Kp": 200.0}])
 
 
-def test_the_digest_covers_included_files_and_component_libraries(tmp_path):
-    (tmp_path / "urdf").mkdir()
-    (tmp_path / "urdf/x.urdf").write_text("<robot/>")
-    (tmp_path / "base.yaml").write_text('libraries: [mine]\nfile: "${here}/urdf/x.urdf"\n')
-    (tmp_path / "a.yaml").write_text("include: [base.yaml]\n")
-    (tmp_path / "libmine.so").write_bytes(b"1")
-    (tmp_path / "libother.so").write_bytes(b"1")
-    digests = [digest_of(tmp_path / "a.yaml", [str(tmp_path)])]
-    for file, text in {"urdf/x.urdf": "<robot />", "libmine.so": "2", "libother.so": "2"}.items():
-        (tmp_path / file).write_text(text)
-        digests.append(digest_of(tmp_path / "a.yaml", [str(tmp_path)]))
-    assert digests[0] != digests[1] != digests[2] == digests[3]
+def test_a_file_that_a_point_names_is_the_one_it_was(tmp_path):
+    head = tmp_path / "head.urdf"
+    head.write_text((JANUS / "janus.urdf").read_text())
+
+    def again():
+        return sweep([{"Cards.robot_description": str(head)}], workers=1, out=tmp_path / "out")
+
+    assert again().effort.runs == 1 and again().effort.runs == 0
+    head.write_text(head.read_text().replace('mass value="1.1"', 'mass value="1.2"'))
+    with pytest.raises(JournalError, match="another experiment: file .*head.urdf changed since"):
+        again()
 
 
 def test_a_recorded_run_leaves_its_recording_its_point_and_a_report(tmp_path):
@@ -158,13 +160,94 @@ def test_a_recorded_run_leaves_its_recording_its_point_and_a_report(tmp_path):
     assert {"janus.mcap", "point.json"} <= {file.name for file in folder.iterdir()}
     assert '"PID1.Kp": 200.0' in (folder / "point.json").read_text()
     if (Path(armature.__file__).parents[4] / "bin/armature").exists():
+        assert '"title":"000000"' in (folder / "report.html").read_text()
         assert '"report":"runs/000000/report.html"' in (tmp_path / "sweep.html").read_text()
+
+
+SILENT = """
+include: INCLUDED
+on_fault: stop_all
+components:
+  Quiet: {model: Quiet, activity: {periodic: 10 ms, scheduler: other}}
+  Ear: {model: Ear, activity: {periodic: 10 ms, scheduler: other}}
+connections:
+  - {from: Quiet.out, to: Ear.heard, max_age: 100 ms, on_old: stop}
+"""
+
+
+class Quiet(author.Component):
+    """Falls silent at 0.5 s."""
+
+    out = author.Output(float, doc="the time")
+
+    def update(self) -> None:
+        if self.time < 0.5:
+            self.out = self.time
+
+
+class Ear(author.Component):
+    """Is stopped when nothing comes any more."""
+
+    heard = author.Input(float, doc="what comes")
+
+
+def forgets_to_look(app):
+    app.run_for("2 s")
+    return {"cost": 1.0}
+
+
+@pytest.mark.parametrize("measure", [short_motion, forgets_to_look])
+def test_a_reaction_that_ends_the_application_is_the_reason(tmp_path, measure):
+    (tmp_path / "silent.yaml").write_text(SILENT.replace("INCLUDED", str(PID)))
+    results = armature.sweep(
+        tmp_path / "silent.yaml", [{}], measure, workers=1, progress=False, components=[Quiet, Ear],
+    )  # fmt: skip
+    assert results[0].outcome == "failed"
+    assert re.match("Faulted: the application ended at 0.59 s, Ear: input 'heard'", results[0].reason)
+
+
+def test_following_measures_no_time_that_has_not_passed(tmp_path):
+    (tmp_path / "silent.yaml").write_text(SILENT.replace("INCLUDED", str(PID)))
+    with armature.load(tmp_path / "silent.yaml", components=[Quiet, Ear]).application() as app:
+        app.run_for("100 ms")
+        following = Following(app, [("PID1.Ref", "PID1.Sen")], period=0.01)
+        assert app.end_reason == ""
+        with pytest.raises(armature.Error, match="ended at 0.59 s, Ear"):
+            following.run_until(5.0)
+        assert following.seconds == pytest.approx(0.49)
+
+
+def test_a_run_without_recordings_records_nothing_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+
+    def measure(app):
+        app.run_for("100 ms")
+        return {"files": len(list(tmp_path.glob("*/*.mcap"))), "components": len(app.components)}
+
+    metrics = Simulated(str(PID), measure, {})({}, None)
+    assert metrics == {"files": 0, "components": 15}
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_deployment_without_outputs_is_recorded_as_far_as_it_goes(tmp_path):
+    (tmp_path / "ear.yaml").write_text(
+        "application: a\ncomponents: {Nobody: {model: Nobody, activity: {periodic: 10 ms}}}\n")
+    results = armature.sweep(
+        tmp_path / "ear.yaml", [{}], forgets_to_look, workers=1, progress=False, components=[Nobody],
+        out=tmp_path / "out", record=True,
+    )  # fmt: skip
+    assert results.outcomes == {"done": 1}, results[0].reason
+
+
+class Nobody(author.Component):
+    """Has no ports."""
 
 
 class Faulty:
     """An application whose joint goes out of service while it is measured."""
 
     faults = {"Joint1": "the cards are silent"}
+    end_reason = "the application ended at 1 s"
 
     def __enter__(self):
         return self
@@ -176,7 +259,7 @@ class Faulty:
 @pytest.mark.parametrize("measure", [lambda app: {"cost": 1.0}, lambda app: 1 / 0])
 def test_a_fault_is_the_reason_whatever_is_measured(monkeypatch, measure):
     class Deployment:
-        def application(self, record, grants):
+        def application(self, record, what, grants):
             return Faulty()
 
     monkeypatch.setattr(armature, "load", lambda *arguments, **options: Deployment())
@@ -195,3 +278,18 @@ def test_what_the_page_of_sweeps_begins_with_runs(tmp_path, monkeypatch, capsys)
     assert lines[0].split() == ["run", "PID1.Kp", "PID1.Kd", "iae"]
     assert lines[-1] == "6 runs: 6 done"
     assert (tmp_path / "sweep/sweep.html").exists()
+
+
+def test_tuning_compares_gains_on_heads_whose_runs_are_done(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("scipy")
+    path = JANUS.parents[1] / "python/examples/tune_janus.py"
+    spec = importlib.util.spec_from_file_location("tune_janus", path)
+    tune_janus = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(tune_janus)
+    good = {"iae": 0.5, "iae_1": 0.25, "iae_2": 0.25, "largest": 0.1}
+    runs = [Run(i, {}, "done", {**good, "iae": 1.0 - 0.1 * i}, "") for i in range(5)]
+    runs.append(Run(5, {}, "failed", {}, "Faulted: Joint1"))
+    monkeypatch.setattr(armature, "sweep", lambda *arguments, **options: Results(runs))
+    share = tune_janus.robustness(tune_janus.PAPERS_GAINS, tmp_path, {})
+    assert share == [pytest.approx(0.9 / 1.0), pytest.approx(0.7 / 0.8)]
+    assert "failed: Faulted: Joint1" in capsys.readouterr().out

@@ -111,6 +111,28 @@ def test_no_text_of_a_run_ends_its_data(tmp_path):
     assert json.loads(data)["runs"][9]["reason"] == "PID1 </script> shakes Joint1: gain margin 1.9"
 
 
+def test_braces_in_a_run_are_no_place_for_a_part_of_the_page(tmp_path):
+    runs = [Run(0, {"x": "{{elements}} {{title}} {{other}}"}, "done", {"cost": 1.0}, "")]
+    text = page_text(Results(runs, title="{{data}}"), tmp_path)
+    data = re.search(r'<script type="application/json" id="data">(.*?)</script>', text).group(1)
+    assert json.loads(data)["runs"][0]["parameters"] == ["{{elements}} {{title}} {{other}}"]
+    assert "<title>{{data}}" in text
+
+
+def test_an_axis_has_room_for_many_runs(tmp_path):
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("there is no node")
+    elements = HERE.parent / "armature/sweeps/page/elements.js"
+    script = f"""
+const {{readFileSync}} = require('fs');
+const Elements = new Function(readFileSync({json.dumps(str(elements))}, 'utf8') + '; return Elements;')();
+const axis = Elements.numericAxis(Array.from({{length: 500000}}, (_, i) => i - 3));
+console.log(axis.least, axis.most);"""
+    ran = subprocess.run([node, "-e", script], capture_output=True, text=True)
+    assert (ran.stdout, ran.stderr) == ("-3 499996\n", "")
+
+
 def test_a_sweep_that_records_makes_a_folder_for_each_run_that_the_page_links(tmp_path):
     pytest.importorskip("cloudpickle")
     import sweep_runs

@@ -21,6 +21,10 @@ def test_an_axis_is_a_list_with_values():
         grid({"a": "text"})
 
 
+def test_an_axis_may_be_given_once_only():
+    assert grid({"a": (x for x in (1, 2)), "b": iter("xy")}) == grid({"a": [1, 2], "b": ["x", "y"]})
+
+
 def test_random_points_are_those_of_their_seed_and_within_their_ranges():
     ranges = {"a": (-1.0, 1.0), "b": (10.0, 20.0)}
     points = random(ranges, 50, seed=4)

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+import csv
 import os
 import signal
 import subprocess
@@ -8,11 +9,12 @@ import time
 import types
 from pathlib import Path
 
+import numpy
 import pytest
 import sweep_runs
 from sweep_checks import bits
 
-from armature.sweeps import Interrupted, Pool, PoolError, each, points
+from armature.sweeps import Interrupted, PointsError, Pool, PoolError, each, points
 
 pytest.importorskip("cloudpickle")
 
@@ -66,7 +68,7 @@ def test_a_worker_killed_from_outside_in_the_middle_is_replaced(tmp_path):
         killer.join()
         assert max(run.attempts for run in results) == 2
         assert len(pool) == 2
-    undisturbed = quiet(sweep_runs.slow, [dict(p, seconds=0.0) for p in some], workers=1)
+    undisturbed = quiet(sweep_runs.slow, [dict(p, takes=0.0) for p in some], workers=1)
     assert [run.metrics for run in results] == [run.metrics for run in undisturbed]
 
 
@@ -111,7 +113,7 @@ def test_workers_end_with_a_parent_that_is_killed_in_the_middle_of_their_runs(tm
     script = (
         "import sweep_runs\n"
         "from armature.sweeps import each\n"
-        f"each(sweep_runs.slow, [{{'x': 1, 'marks': {str(tmp_path)!r}, 'seconds': 600}}], workers=1)"
+        f"each(sweep_runs.slow, [{{'x': 1, 'marks': {str(tmp_path)!r}, 'takes': 600}}], workers=1)"
     )
     parent = subprocess.Popen(
         [sys.executable, "-c", script],
@@ -124,6 +126,45 @@ def test_workers_end_with_a_parent_that_is_killed_in_the_middle_of_their_runs(tm
     worker = int(begun[0].name.split("-")[1])
     while is_running(worker):  # as long as ctest lets it
         time.sleep(0.05)
+
+
+def test_what_a_run_has_started_ends_with_its_pool(tmp_path):
+    interrupt_when(lambda: any(tmp_path.iterdir()))
+    with pytest.raises(Interrupted):
+        quiet(sweep_runs.with_child, [{"marks": str(tmp_path)}], workers=1)
+    child = int(next(tmp_path.iterdir()).name)
+    while is_running(child):  # as long as ctest lets it
+        time.sleep(0.05)
+
+
+def test_what_a_killed_run_has_left_is_gone_with_its_pool(tmp_path):
+    results = quiet(sweep_runs.leaves_and_dies, [{"marks": str(tmp_path)}], workers=1)
+    assert results[0].outcome == "lost"
+    assert not Path((tmp_path / "where").read_text()).exists()
+
+
+def test_a_closed_pool_does_no_runs():
+    pool = Pool(1)
+    pool.close()
+    with pytest.raises(PoolError, match="the pool is closed"):
+        quiet(sweep_runs.rosenbrock, SQUARE, workers=pool)
+
+
+def test_workers_import_what_the_parent_does(tmp_path):
+    script, here = tmp_path / "script", tmp_path / "here"
+    for folder in (script, here):
+        folder.mkdir()
+    (here / "json.py").write_text("raise ImportError('not this one')\n")
+    (script / "it.py").write_text(
+        "import sweep_runs\n"
+        "from armature.sweeps import each\n"
+        "print(each(sweep_runs.rosenbrock, [{'x': 1, 'y': 1}], workers=1, progress=False)[0].outcome)\n"
+    )
+    ran = subprocess.run(
+        [sys.executable, script / "it.py"], cwd=here, capture_output=True, text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+    )  # fmt: skip
+    assert (ran.stdout, ran.stderr) == ("done\n", "")
 
 
 def is_running(process):
@@ -179,7 +220,7 @@ def test_ctrl_c_leaves_what_is_done(tmp_path):
     assert partial.outcomes == {"done": len(partial)}
     assert len((out / "runs.csv").read_text().splitlines()) == 1 + len(partial)
 
-    rest = [dict(point, seconds=0.0) for point in some]  # other points: nothing is reused
+    rest = [dict(point, takes=0.0) for point in some]  # other points: nothing is reused
     assert quiet(sweep_runs.slow, rest, workers=2, out=out).effort.runs == 24
     whole = quiet(sweep_runs.slow, some[:12], workers=2, out=out)
     assert whole.effort.runs == 12 - sum(run.number < 12 for run in partial)
@@ -195,3 +236,53 @@ def interrupt_when(ready):
         os.kill(os.getpid(), signal.SIGINT)
 
     threading.Thread(target=wait_and_send, daemon=True).start()
+
+
+def test_a_recorded_run_that_was_interrupted_is_done_again(tmp_path):
+    marks, out = tmp_path / "marks", tmp_path / "out"
+    marks.mkdir()
+    some = [{"x": 1, "marks": str(marks)}]
+    quiet(sweep_runs.slow_with_folder, some, workers=1, out=out)
+    interrupt_when((marks / "begun").exists)
+    with pytest.raises(Interrupted):
+        quiet(sweep_runs.slow_with_folder, some, workers=1, out=out, record=True)
+    (marks / "again").touch()
+    again = quiet(sweep_runs.slow_with_folder, some, workers=1, out=out, record=True)
+    assert again.effort.runs == 1
+    assert [folder.name for folder in (out / "runs").iterdir()] == ["000000"]
+    assert (out / "runs/000000/left.txt").read_text() == "whole"
+    assert quiet(sweep_runs.slow_with_folder, some, workers=1, out=out, record=True).effort.runs == 0
+
+
+def test_a_run_that_was_refused_leaves_no_folder(tmp_path):
+    for runs in (1, 0):
+        refused = quiet(sweep_runs.picky, [{"x": -1}], workers=1, out=tmp_path, record=True)
+        assert refused.effort.runs == runs
+        assert refused.folder_of(refused[0]) is None and not any((tmp_path / "runs").iterdir())
+
+
+@pytest.mark.parametrize("metric", ["metric", "number", "seconds"])
+def test_a_metric_has_a_name_of_its_own(metric):
+    results = quiet(sweep_runs.names_metric, [{"metric": metric}], workers=1)
+    assert results[0].reason.startswith(f"ValueError: the metric '{metric}' has the name of a parameter")
+
+
+def test_a_parameter_has_a_name_of_its_own():
+    with pytest.raises(PointsError, match="cannot be called 'number'"):
+        quiet(sweep_runs.rosenbrock, [{"number": 1}], workers=1)
+
+
+def test_values_of_numpy_and_odd_ones_are_in_all_files(tmp_path):
+    some = [{"x": 1, "kind": kind} for kind in (
+        numpy.bool_(True), numpy.array([1, 2]), [numpy.float64(0.5)], "\ud800", 10**400, Path("a.yaml"),
+    )]  # fmt: skip
+    results = quiet(sweep_runs.draws, some, workers=1, out=tmp_path)
+    assert results.outcomes == {"done": 6}
+    rows = list(csv.DictReader((tmp_path / "runs.csv").open()))
+    assert [row["kind"] for row in rows] == [
+        "true", "[1, 2]", "[0.5]", "\\ud800", str(10**400), "a.yaml"]  # fmt: skip
+    assert quiet(sweep_runs.draws, some, workers=1, out=tmp_path).effort.runs == 0
+    assert "6 runs: 6 done" in results.table()
+    assert results.array()["kind"].tolist()[0] == "true"
+    with pytest.raises(PointsError, match="a value of 'kind' must be a number"):
+        quiet(sweep_runs.draws, [{"x": 1, "kind": object()}], workers=1)

@@ -48,6 +48,11 @@ def test_without_any_result_the_reason_is_told():
         results.best
 
 
+def test_an_objective_that_no_run_has_is_told_with_those_there_are():
+    with pytest.raises(LookupError, match="no run has the metric 'cots': there are cost, other"):
+        some_results(objective="cots").best
+
+
 def test_csv_has_all_digits_and_reasons(tmp_path):
     some_results().to_csv(tmp_path / "runs.csv")
     rows = list(csv.DictReader((tmp_path / "runs.csv").open()))
@@ -90,6 +95,8 @@ def test_values_are_written_as_the_command_line_takes_them():
     assert text_of(numpy.float64(0.1)) == "0.1"
     assert text_of("20 ms") == "20 ms"
     assert text_of([1, 2.5]) == "[1, 2.5]"
+    assert text_of(numpy.bool_(True)) == "true"
+    assert text_of(numpy.array([1, 2])) == "[1, 2]"
 
 
 EXPERIMENT = {"deployment": "pid.yaml", "metrics": "measure 1234"}
@@ -132,6 +139,21 @@ def test_a_folder_is_of_one_experiment_and_one_sweep_at_a_time(tmp_path):
             Journal(tmp_path, EXPERIMENT)
     with pytest.raises(JournalError, match="another experiment: metrics changed since"):
         Journal(tmp_path, {**EXPERIMENT, "metrics": "measure 5678"})
+
+
+def test_files_that_points_name_are_compared_where_both_name_them(tmp_path):
+    for named in ({"file a": "1"}, {"file b": "2"}, {"file a": "1", "file b": "2"}):
+        Journal(tmp_path, {**EXPERIMENT, **named}).close()
+    with pytest.raises(JournalError, match="another experiment: file b changed since"):
+        Journal(tmp_path, {**EXPERIMENT, "file b": "3"})
+
+
+def test_progress_takes_no_metric_that_is_no_number_for_the_best():
+    progress = Progress(3, None, io.StringIO())
+    progress.add(run(0, cost=math.nan, Kp=1))
+    assert "best" not in progress.text(1.0)
+    progress.add(run(1, cost=2.0, Kp=2))
+    assert progress.text(1.0).endswith("best cost 2")
 
 
 def test_progress_tells_how_many_how_fast_and_the_best():

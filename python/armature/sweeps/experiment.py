@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A run of a deployment in simulated time, and what tells one experiment from another."""
+"""A run of a deployment in simulated time."""
 from __future__ import annotations
 
 import contextlib
 import dataclasses
-import hashlib
-import inspect
 import json
-import re
 import subprocess
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from .identity import digest_of, files_named_by, source_of
 from .journal import as_json
 from .points import Point, Value
 from .run import Metrics, Refusal, RunPoint
@@ -40,12 +38,12 @@ class Simulated:
     def __call__(self, point: Point, folder: Path | None) -> Metrics:
         with contextlib.ExitStack() as stack:
             where = folder or Path(stack.enter_context(_scratch_folder()))
-            metrics = self._run(point, where)
+            metrics = self._run(point, where, record=folder is not None)
         if folder is not None:
             _leave_report(folder, point, metrics)
         return metrics
 
-    def _run(self, point: Point, folder: Path) -> Metrics:
+    def _run(self, point: Point, folder: Path, record: bool) -> Metrics:
         import armature
 
         try:
@@ -55,7 +53,9 @@ class Simulated:
                 libraries=self.libraries,
                 components=self.components,
             )
-            application = loaded.application(record=folder, grants=self.grants)
+            # A deployment's own recorder records in any case.
+            what = None if record else ()
+            application = loaded.application(record=folder, what=what, grants=self.grants)
         except armature.DeploymentError as error:
             raise Refusal(self._first_mistake(error)) from error
         with application:
@@ -71,14 +71,20 @@ class Simulated:
         """Files are told as seen from the deployment's folder, wherever that is on each host."""
         return str(error).split("\n", 1)[0].replace(f"{Path(self.deployment).parent}/", "")
 
+    @property
+    def folders(self) -> list[Path]:
+        """From which files are seen that values name."""
+        return [Path(self.deployment).parent, Path.cwd()]
+
     def describe(self) -> dict[str, str]:
+        file = Path(self.deployment)
         return {
             "deployment": self.deployment,
-            "files of the deployment": digest_of(Path(self.deployment), self.libraries),
+            "files of the deployment": digest_of(file, _library_folders(file, self.libraries)),
             "values set": repr(sorted(self.set.items())),
             "grants": repr(sorted(self.grants)),
-            "components in Python": repr([_source_of(one) for one in self.components]),
-            "metrics": _source_of(self.measure),
+            "components in Python": repr([source_of(one) for one in self.components]),
+            "metrics": source_of(self.measure),
         }
 
 
@@ -88,10 +94,10 @@ def _scratch_folder() -> tempfile.TemporaryDirectory[str]:
 
 
 def _raise_faults(application: Any, error: Exception | None = None) -> None:
-    """Whatever else went wrong, faults are why."""
+    """Whatever else went wrong, faults are why, and so is what ended the application's time."""
     faults = "; ".join(f"{name}: {reason}" for name, reason in application.faults.items())
-    if faults:
-        raise Faulted(faults) from error
+    if faults or application.end_reason:
+        raise Faulted(faults or application.end_reason) from error
 
 
 def _leave_report(folder: Path, point: Point, metrics: Metrics) -> None:
@@ -105,56 +111,15 @@ def _leave_report(folder: Path, point: Point, metrics: Metrics) -> None:
         subprocess.run([program, "report", folder], capture_output=True, check=False)
 
 
-def describe(run_point: RunPoint) -> dict[str, str]:
+def describe(run_point: RunPoint, points: Sequence[Point]) -> dict[str, str]:
     """What runs depend on beside their points, as text by name: folders compare it."""
     if isinstance(run_point, Simulated):
-        return run_point.describe()
-    return {"run": _source_of(run_point)}
+        return {**run_point.describe(), **files_named_by([run_point.set, *points], run_point.folders)}
+    return {"run": source_of(run_point), **files_named_by(points, [Path.cwd()])}
 
 
-def _source_of(function: Any) -> str:
-    """Its name and a digest of its text, as far as there is one; of a partial, its values too."""
-    inner = getattr(function, "func", None)
-    if inner is not None:
-        return f"{_source_of(inner)} {function.args!r} {sorted(function.keywords.items())!r}"
-    subject = function if hasattr(function, "__qualname__") else type(function)
-    name = f"{subject.__module__}.{subject.__qualname__}"
-    try:
-        return f"{name} {hashlib.sha256(inspect.getsource(subject).encode()).hexdigest()[:16]}"
-    except (OSError, TypeError):
-        return name
+def _library_folders(deployment: Path, first: Sequence[str]) -> list[str]:
+    """All that a load searches."""
+    from armature._deployment import _COMPONENTS, _folders_of_environment
 
-
-_FILE_NAME = re.compile(r"[\w./${}~+-]+\.(?:yaml|yml|xml|cpf|urdf|json|csv|lua|policy)\b")
-
-
-def digest_of(deployment: Path, library_folders: Sequence[str] = ()) -> str:
-    """Of a deployment, of all files that it and they name, and of its component libraries.
-
-    What looks like a file's name and is one counts, in comments, too: too much rather than too
-    little. The libraries of the runtime itself are left out.
-    """
-    digest = hashlib.sha256()
-    words: set[str] = set()
-    waiting, seen = [deployment], {deployment}
-    while waiting:
-        file = waiting.pop()
-        content = file.read_bytes()
-        digest.update(content)
-        text = content.decode("utf-8", "replace")
-        words.update(re.findall(r"\w+", text))
-        for name in sorted(set(_FILE_NAME.findall(text))):
-            named = (file.parent / name.replace("${here}", ".")).resolve()
-            if named not in seen and named.is_file():
-                seen.add(named)
-                waiting.append(named)
-    for library in _libraries_in(library_folders):
-        if library.stem.removeprefix("lib") in words:
-            digest.update(library.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def _libraries_in(folders: Sequence[str]) -> list[Path]:
-    from armature._deployment import _COMPONENTS
-
-    return [file for folder in (*folders, _COMPONENTS) for file in sorted(Path(folder).glob("lib*.so"))]
+    return [*first, *_folders_of_environment(), _COMPONENTS, str(deployment.parent)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from armature._errors import StoodStill
 from armature._native import ErrorFigures, ErrorMetrics
 
 
@@ -35,10 +36,15 @@ class Following:
         return self._metrics.samples * self._period
 
     def run_until(self, seconds: float) -> None:
-        """Until it has measured for so long; nothing if it has already."""
+        """Until it has measured for so long; nothing if it has already.
+
+        @raises armature.Error if a fault, or a reaction to old data, ends the application before
+        """
         wanted = round(seconds / self._period)
         while self._metrics.samples < wanted:
             self._application.run_for(self._period)
+            if self._application.end_reason:
+                raise StoodStill(self._application.end_reason)
             self._metrics.step([a.value - b.value for a, b in self._ports])
 
 

@@ -6,11 +6,12 @@ import dataclasses
 import fcntl
 import json
 from collections.abc import Mapping
-from pathlib import Path
+from pathlib import Path, PurePath
 from types import TracebackType
 from typing import Any
 
-from .points import Point
+from .identity import FILE
+from .points import Point, PointsError
 from .run import LOST, Run
 
 EXPERIMENT = "sweep.json"
@@ -91,16 +92,26 @@ class Journal:
     def _expect(self, experiment: dict[str, str]) -> None:
         file = self.folder / EXPERIMENT
         if not file.exists():
-            file.write_text(json.dumps(experiment, indent=2) + "\n", encoding="utf-8")
+            self._write_experiment(experiment)
             return
         found = json.loads(file.read_text(encoding="utf-8"))
-        names = found.keys() | experiment.keys()
+        # Files that points name are compared where both name them: points are added to a folder.
+        names = {
+            name for name in found.keys() | experiment.keys()
+            if not name.startswith(FILE) or (name in found and name in experiment)
+        }  # fmt: skip
         other = sorted(name for name in names if found.get(name) != experiment.get(name))
         if other:
             raise JournalError(
                 f"{self.folder} has runs of another experiment: {', '.join(other)} "
                 "changed since (give another folder, or remove this one)"
             )
+        self._write_experiment({**found, **experiment})
+
+    def _write_experiment(self, experiment: dict[str, str]) -> None:
+        partial = self.folder / (EXPERIMENT + ".partial")
+        partial.write_text(json.dumps(experiment, indent=2) + "\n", encoding="utf-8")
+        partial.replace(self.folder / EXPERIMENT)
 
     def _read(self) -> dict[str, Run]:
         """What a crash has left of a last line is cut off."""
@@ -119,7 +130,24 @@ def key_of(point: Point) -> str:
 
 
 def as_json(point: Point) -> dict[str, Any]:
-    """Numbers of numpy are numbers."""
-    return {
-        name: value.tolist() if hasattr(value, "tolist") else value for name, value in point.items()
-    }
+    """Numbers and arrays of numpy are numbers and lists.
+
+    @raises PointsError if a value is none that a deployment takes
+    """
+    return {name: _plain(value, name) for name, value in point.items()}
+
+
+def _plain(value: Any, name: str) -> Any:
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if value is None or isinstance(value, (bool, int, float, str)):
+        return value
+    if isinstance(value, (list, tuple)):
+        return [_plain(part, name) for part in value]
+    if isinstance(value, Mapping):
+        return {str(key): _plain(part, name) for key, part in value.items()}
+    if isinstance(value, PurePath):
+        return str(value)
+    raise PointsError(
+        f"a value of '{name}' must be a number, a text, a list or a mapping of them, found {value!r}"
+    )

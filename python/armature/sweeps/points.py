@@ -25,12 +25,17 @@ def grid(axes: Mapping[str, Sequence[Value]]) -> list[Point]:
 
     `grid({"PID1.Kp": [200, 400], "PID1.Kd": [100, 200]})` has four points.
     """
-    for name, values in axes.items():
-        if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-            raise PointsError(f"axis '{name}' must be a list of values, found {values!r}")
-        if len(list(values)) == 0:
-            raise PointsError(f"axis '{name}' has no values (give it at least one)")
-    return [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
+    lists = {name: _values_of(name, values) for name, values in axes.items()}
+    return [dict(zip(lists, values)) for values in itertools.product(*lists.values())]
+
+
+def _values_of(name: str, values: Any) -> list[Value]:
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise PointsError(f"axis '{name}' must be a list of values, found {values!r}")
+    listed_values = list(values)  # of an iterator all at once: it gives them but once
+    if not listed_values:
+        raise PointsError(f"axis '{name}' has no values (give it at least one)")
+    return listed_values
 
 
 def random(

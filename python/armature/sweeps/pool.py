@@ -2,12 +2,15 @@
 """Workers on this machine: processes that are started once and kept."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import os
+import shutil
 import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from collections import Counter, deque
 from collections.abc import Iterator, Sequence
@@ -38,11 +41,13 @@ class Pool:
         if workers < 1:
             raise PoolError(f"the number of workers must be 1 or more, found {workers}")
         self._workers: list[_Worker] = []
+        # What runs leave behind is gone with the pool, also where their worker was killed.
+        self._scratch = tempfile.mkdtemp(prefix="armature-sweep-")
         self.start_seconds: list[float] = []  #: from starting a worker to its first word
         self._failed_starts = 0
         try:
             for _ in range(workers):
-                self._workers.append(_Worker())
+                self._workers.append(_Worker(self._scratch))
         except BaseException:
             self.close()
             raise
@@ -61,6 +66,8 @@ class Pool:
         A worker that dies is replaced, and its run is done again. A caller that leaves the
         iteration early leaves workers at work: close the pool then, or use `Pool` as a context.
         """
+        if not self._workers:
+            raise PoolError("the pool is closed: its workers have ended (open another one)")
         for worker in list(self._workers):
             if worker.task is not None:
                 self._replace(worker)  # A run that was given up half-way is of no use now.
@@ -78,6 +85,7 @@ class Pool:
         for worker in self._workers:
             worker.end()
         self._workers.clear()
+        shutil.rmtree(self._scratch, ignore_errors=True)
 
     def __enter__(self) -> Pool:
         return self
@@ -129,18 +137,23 @@ class Pool:
 
     def _replace(self, worker: _Worker) -> None:
         worker.end()
-        self._workers[self._workers.index(worker)] = _Worker()
+        self._workers[self._workers.index(worker)] = _Worker(self._scratch)
 
 
 class _Worker:
-    def __init__(self) -> None:
+    def __init__(self, scratch: str) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", "armature.sweeps.worker", str(theirs.fileno())],
+                # -P: the search path is the parent's, without the working directory before it.
+                [sys.executable, "-P", "-m", "armature.sweeps.worker", str(theirs.fileno()), scratch],
                 stdin=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
-                env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
+                env={
+                    **os.environ,
+                    "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path)),
+                    "TMPDIR": scratch,
+                },
                 process_group=0,  # Ctrl-C is the parent's affair
             )
         self.connection = Connection(ours.detach())
@@ -176,11 +189,19 @@ class _Worker:
         return f"exit code {code}"
 
     def end(self) -> None:
+        """With all processes that its runs have started."""
         self.connection.close()
-        if self.process.poll() is None:
-            try:
-                self.process.wait(timeout=0.05)  # it may be dying by itself, of what is to be told
-            except subprocess.TimeoutExpired:
-                self.process.kill()
+        if self.process.returncode is not None:
+            return  # it was ended before, and its number may be another one's now
+        self._let_die()
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
+
+    def _let_die(self) -> None:
+        """It may be dying by itself, of what is to be told. Its number stays its own meanwhile."""
+        how = os.WEXITED | os.WNOHANG | os.WNOWAIT
+        end = time.monotonic() + 0.05
+        while time.monotonic() < end and os.waitid(os.P_PID, self.process.pid, how) is None:
+            time.sleep(0.005)
 

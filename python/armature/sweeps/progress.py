@@ -2,6 +2,7 @@
 """How far a sweep is, on standard error."""
 from __future__ import annotations
 
+import math
 import sys
 import time
 from typing import TextIO
@@ -48,7 +49,7 @@ class Progress:
         if run.done and self._objective is None:
             self._objective = next(iter(run.metrics))
         value = run.metrics.get(self._objective or "")
-        if value is not None and (self._best is None or value < self._best):
+        if value is not None and not math.isnan(value) and (self._best is None or value < self._best):
             self._best = value
 
     def _write(self, text: str) -> None:

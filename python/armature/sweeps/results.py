@@ -95,6 +95,9 @@ class Results(Sequence[Run]):
         ranked = self.ranked()
         if ranked:
             return ranked[0]
+        if self.metrics and self.objective not in self.metrics:
+            names = ", ".join(self.metrics)
+            raise LookupError(f"no run has the metric '{self.objective}': there are {names}")
         reasons = [f": run {run.number}, {run.reason}" for run in self._runs if run.reason]
         raise LookupError(f"no run of {len(self)} is done{(reasons or [''])[0]}")
 
@@ -132,7 +135,7 @@ class Results(Sequence[Run]):
 
         Columns: `run`, the parameters, the metrics, `outcome`, `reason`, `seconds`, `worker`.
         """
-        with open(path, "w", newline="", encoding="utf-8") as file:
+        with open(path, "w", newline="", encoding="utf-8", errors="backslashreplace") as file:
             writer = csv.writer(file)
             names = [*self.parameters, *self.metrics]
             writer.writerow(["run", *names, "outcome", "reason", "seconds", "worker"])
@@ -187,6 +190,7 @@ def run_folder(number: int) -> str:
 
 def text_of(value: Value) -> str:
     """A parameter's value as `armature run --set` takes it."""
+    value = value.tolist() if hasattr(value, "tolist") else value  # numpy's
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
@@ -194,7 +198,7 @@ def text_of(value: Value) -> str:
     if value is None:
         return ""
     if is_number(value):
-        return repr(value.item() if hasattr(value, "item") else value)
+        return repr(value)
     return json.dumps(value)
 
 

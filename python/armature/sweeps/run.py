@@ -2,16 +2,18 @@
 """One run of a sweep: a point in, metrics or a reason out."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 import numbers
 import os
 import random
+import shutil
 import socket
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +27,12 @@ REFUSED = "refused"
 FAILED = "failed"
 #: Every worker that had it died: the only outcome that another attempt may change.
 LOST = "lost"
+
+#: What results say of a run beside its parameters and metrics, which have other names.
+OWN_COLUMNS = ("run", "number", "outcome", "reason", "seconds", "worker")
+
+#: Beside the folders of runs: those of runs that are under way, or were cut off.
+PARTIAL = "partial"
 
 Metrics = Mapping[str, float]
 #: Runs one point: the point, and the folder for what it leaves (None: it leaves nothing).
@@ -77,18 +85,43 @@ def run_task(run_point: RunPoint, task: Task) -> Run:
 
 
 def _outcome_of(run_point: RunPoint, task: Task) -> tuple[str, dict[str, float], str]:
-    folder = None if task.folder is None else Path(task.folder)
     try:
-        if folder is not None:
-            folder.mkdir(parents=True, exist_ok=True)
-        return DONE, _checked(run_point(dict(task.point), folder)), ""
+        with _folder_of(task) as folder:
+            return DONE, _checked(run_point(dict(task.point), folder), task.point), ""
     except Refusal as refusal:
         return REFUSED, {}, str(refusal)
     except Exception as error:  # of the run alone; Ctrl-C and exits go on
         return FAILED, {}, f"{type(error).__name__}: {error}"
 
 
-def _checked(metrics: Any) -> dict[str, float]:
+@contextlib.contextmanager
+def _folder_of(task: Task) -> Iterator[Path | None]:
+    """For what the run leaves. It gets to its place when the run has ended: what was cut off has none.
+    A run that was refused leaves nothing."""
+    if task.folder is None:
+        yield None
+        return
+    folder = Path(task.folder)
+    partial = folder.parent / PARTIAL / folder.name  # by whose name reports are called
+    shutil.rmtree(partial, ignore_errors=True)
+    partial.mkdir(parents=True)
+    try:
+        yield partial
+    except Refusal:
+        shutil.rmtree(partial)
+        raise
+    except Exception:
+        _move(partial, folder)
+        raise
+    _move(partial, folder)
+
+
+def _move(partial: Path, folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    partial.rename(folder)
+
+
+def _checked(metrics: Any, point: Point) -> dict[str, float]:
     if not isinstance(metrics, Mapping) or not metrics:
         raise TypeError(
             f"the metrics must be a mapping of names to numbers with at least one, found {metrics!r}"
@@ -96,6 +129,8 @@ def _checked(metrics: Any) -> dict[str, float]:
     for name, value in metrics.items():
         if not isinstance(value, numbers.Real):
             raise TypeError(f"the metric '{name}' must be a number, found {value!r}")
+        if name in point or name in OWN_COLUMNS:
+            raise ValueError(f"the metric '{name}' has the name of a parameter or of a column: rename it")
     return {str(name): float(value) for name, value in metrics.items()}
 
 
@@ -117,4 +152,9 @@ def lost(task: Task, attempts: int, how: str) -> Run:
 
 def is_number(value: Any) -> bool:
     """Whether a parameter's value belongs on a numeric axis."""
-    return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number that no float is near to
+        return False

@@ -11,12 +11,12 @@ from typing import Any
 from . import cluster
 from .experiment import Measure, Simulated, describe
 from .job import Job
-from .journal import Journal, key_of
-from .points import Point, Value, listed
+from .journal import Journal, as_json, key_of
+from .points import Point, PointsError, Value, listed
 from .pool import Pool
 from .progress import Progress
 from .results import Effort, Results, run_folder
-from .run import Run, RunPoint, Task
+from .run import OWN_COLUMNS, PARTIAL, REFUSED, Run, RunPoint, Task
 
 Parameters = Mapping[str, Sequence[Value]] | Iterable[Mapping[str, Value]]
 
@@ -118,10 +118,10 @@ def each(
         raise ValueError("runs are done by a client's workers or by those of this machine, not both")
     if record and out is None:
         raise ValueError("recordings need a folder (give out=FOLDER)")
-    plan = _Plan(listed(points), Job.of(run_point), objective, title)
+    plan = _Plan(_checked(listed(points)), Job.of(run_point), objective, title)
     with contextlib.ExitStack() as stack:
         if out is not None:
-            plan.journal = stack.enter_context(Journal(Path(out), describe(run_point)))
+            plan.journal = stack.enter_context(Journal(Path(out), describe(run_point, plan.points)))
         tasks = plan.tasks(record)
         begin = time.perf_counter()
         runs, count = _start(stack, plan.job, tasks, client, workers, batch)
@@ -135,6 +135,15 @@ def each(
             raise Interrupted(plan.finish(time.perf_counter() - begin, count)) from None
         results = plan.finish(time.perf_counter() - begin, count)
     return results
+
+
+def _checked(points: list[Point]) -> list[Point]:
+    """Their values as files and other processes have them, too."""
+    plain = [as_json(point) for point in points]
+    for name in OWN_COLUMNS:
+        if any(name in point for point in plain):
+            raise PointsError(f"a parameter cannot be called '{name}', as a column of the results is")
+    return plain
 
 
 def _start(
@@ -162,7 +171,7 @@ class _Plan:
     def __init__(self, points: list[Point], job: Job, objective: str | None, title: str):
         self.job = job
         self.journal: Journal | None = None
-        self._points = points
+        self.points = points
         self._objective = objective
         self._title = title
         self._runs: dict[str, Run] = {}
@@ -172,7 +181,7 @@ class _Plan:
         """One for each point whose run is not there yet, or not recorded; equal points are one."""
         made: dict[str, Task] = {}
         new_number = self.journal.next_number if self.journal else 0
-        for point in self._points:
+        for point in self.points:
             key = key_of(point)
             if key in made or key in self._runs:
                 continue
@@ -181,7 +190,8 @@ class _Plan:
                 number, new_number = new_number, new_number + 1
             folder = self._folder(number) if record else None
             known = self.journal.find(point) if self.journal else None
-            if known is not None and (folder is None or folder.is_dir()):
+            left_all = folder is None or folder.is_dir() or (known and known.outcome == REFUSED)
+            if known is not None and left_all:
                 self._runs[key] = known
             else:
                 made[key] = Task(number, point, None if folder is None else str(folder))
@@ -197,10 +207,12 @@ class _Plan:
         """The results of the points that were asked for; the folder shows all that it has."""
         effort = Effort(wall_s, workers, sum(run.seconds for run in self._new), len(self._new))
         if self.journal:
+            with contextlib.suppress(OSError):  # it has runs that were cut off
+                (self.journal.folder / run_folder(0)).with_name(PARTIAL).rmdir()
             whole = self._results(self.journal.runs, effort)
             whole.to_csv(self.journal.folder / "runs.csv")
             whole.page(self.journal.folder / "sweep.html")
-        asked = (self._runs.get(key_of(point)) for point in self._points)
+        asked = (self._runs.get(key_of(point)) for point in self.points)
         return self._results([run for run in asked if run is not None], effort)
 
     def _results(self, runs: list[Run], effort: Effort) -> Results:

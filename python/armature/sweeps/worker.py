@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The process behind a `Pool`: `python3 -m armature.sweeps.worker SOCKET`, started by pool.py.
+"""The process behind a `Pool`: `python3 -m armature.sweeps.worker SOCKET SCRATCH`, started by pool.py.
 
 It has the parent's search path and none of its state, keeps what it has loaded from run to run, and
 ends within a second of its parent.
@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
+import signal
 import sys
 import threading
 import time
@@ -31,14 +33,17 @@ def serve(connection: Connection) -> None:
                 connection.send(run_task(job, message))
 
 
-def end_with(parent: int) -> None:
-    """Also in the middle of a run, which nobody waits for any more."""
+def end_with(parent: int, scratch: str) -> None:
+    """Also in the middle of a run, which nobody waits for any more, with all that it has started."""
     while os.getppid() == parent:
         time.sleep(1.0)
+    shutil.rmtree(scratch, ignore_errors=True)
+    if os.getpgrp() == os.getpid():
+        os.killpg(0, signal.SIGKILL)
     os._exit(1)
 
 
 if __name__ == "__main__":
-    threading.Thread(target=end_with, args=(os.getppid(),), daemon=True).start()
+    threading.Thread(target=end_with, args=(os.getppid(), sys.argv[2]), daemon=True).start()
     with Connection(int(sys.argv[1])) as _connection:
         serve(_connection)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 from html import escape
 from importlib import resources
 from pathlib import Path
@@ -30,7 +31,7 @@ def page_text(results: Results, folder: Path) -> str:
     here = resources.files(__package__)
     text = here.joinpath("sweep.html").read_text(encoding="utf-8")
     data = json.dumps(page_data(results, folder), allow_nan=False, separators=(",", ":"))
-    for name, content in {
+    parts = {
         "title": escape(title_of(results)),
         "style": here.joinpath("sweep.css").read_text(encoding="utf-8"),
         "data": data.replace("<", "\\u003c"),  # no text of a run ends the element
@@ -38,9 +39,9 @@ def page_text(results: Results, folder: Path) -> str:
         "heat_map": here.joinpath("heat_map.js").read_text(encoding="utf-8"),
         "parallel": here.joinpath("parallel.js").read_text(encoding="utf-8"),
         "script": here.joinpath("sweep.js").read_text(encoding="utf-8"),
-    }.items():
-        text = text.replace("{{" + name + "}}", content, 1)
-    return text
+    }
+    # All at once: what a part has in braces is no place for another.
+    return re.sub(r"\{\{(\w+)\}\}", lambda place: parts[place[1]], text)
 
 
 def title_of(results: Results) -> str:
