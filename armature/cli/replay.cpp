@@ -2,6 +2,7 @@
 #include "armature/cli/replay.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -12,10 +13,12 @@
 #include "armature/component/interface.hpp"
 #include "armature/exec/inlets.hpp"
 #include "armature/platform/clock.hpp"
+#include "armature/platform/confinement.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/remote/interface_file.hpp"
 #include "armature/replay/acts.hpp"
 #include "armature/replay/folders.hpp"
+#include "armature/replay/own_files.hpp"
 #include "armature/replay/reenactment.hpp"
 #include "armature/report/report.hpp"
 #include "armature/report/run_folder.hpp"
@@ -73,7 +76,9 @@ base::Result<Recorded> read_recorded(const ReplayArguments& arguments) {
 
 deploy::DeploymentOptions options_for(const ReplayArguments& arguments) {
   deploy::DeploymentOptions options;
-  options.library_folders = arguments.library_folders;
+  for (const std::string& folder : arguments.library_folders) {
+    options.library_folders.push_back(fs::absolute(folder).string());
+  }
   options.read_interface = remote::read_interface;
   options.make_inlets = [](const std::vector<component::InputPortBase*>& inputs)
       -> base::Result<std::unique_ptr<component::Component>> {
@@ -95,6 +100,22 @@ void keep_files_in_place(exec::Blueprint& blueprint) {
       if (name != file) static_cast<void>(property->set(types::Value::of(name)));
     }
   }
+}
+
+/// Whoever observes without recording takes part in a network, as the components of ros2 do: what
+/// came from there is in no account of acts, and the others there would take a replay for a robot.
+bool expect_no_outside(const exec::Blueprint& blueprint, const Console& console) {
+  bool inside = true;
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    const bool observes = !component::interface_of(*entry.component).observers.empty();
+    if (!observes || entry.model == "Reporter") continue;
+    console.say(LogLevel::kError,
+                "'" + entry.component->name() + "' (" + entry.model +
+                    ") speaks to others outside of this process, which are not what they were: a "
+                    "run with it cannot be replayed");
+    inside = false;
+  }
+  return inside;
 }
 
 std::vector<std::string> order_of(const exec::Application& application) {
@@ -121,14 +142,31 @@ struct Done {
   bool failed = false;               ///< it could not be done
   std::vector<std::string> order{};  ///< components, writers before readers
   std::vector<replay::Flow> flows{};
+  std::vector<replay::ChangedOutcome> changed{};  ///< of acts
 };
+
+/// An account of acts may lead on for ever, but nothing is compared behind the last sample. What
+/// was done soon after it is done yet, so that a run that was quiet at its end ends as it did.
+base::Time last_of_interest(const Recorded& recorded, bool cut_off, const Console& console) {
+  constexpr base::Duration kQuiet = std::chrono::minutes(1);
+  const base::Time last = replay::end_of_recordings(recorded.folder);
+  if (cut_off) return last;
+  const base::Time bound = base::later(std::max(last, base::Time{}), kQuiet);
+  if (recorded.acts.back().act.time >= bound) {
+    console.say(LogLevel::kWarning,
+                "the recordings end at " + base::to_text(last - base::Time{}) +
+                    "; what was done later than a minute after that is left out");
+  }
+  return bound;
+}
 
 Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
               const ReplayArguments& arguments, const Console& console) {
   report::RunFacts facts;
   facts.deployment = recorded.experiment.deployment;
   facts.simulated = true;
-  replay::Reenactment reenactment(recorded.acts);
+  const auto due = arguments.changes.any() ? replay::DueBy::kTime : replay::DueBy::kTurn;
+  replay::Reenactment reenactment(recorded.acts, due);
   runner::RunOptions run;
   run.simulated = true;
   run.output_folder = recorded.run;
@@ -145,20 +183,20 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
   const base::Time wall_begin = platform::monotonic_now();
   ReplayView view(application, arguments, console);
   if (!view.ok()) return {.failed = true};
-  const base::Time end =
-      reenactment.cut_off() ? replay::end_of_recordings(recorded.folder) : base::Time::max();
-  const base::Time until = arguments.until ? base::Time{} + *arguments.until : base::Time::max();
-  facts.end = reenactment.run(application, std::min(end, until), [&] { return view.look(); });
+  const bool cut_off = reenactment.cut_off();
+  const base::Time last = last_of_interest(recorded, cut_off, console);
+  const base::Time asked = arguments.until ? base::Time{} + *arguments.until : base::Time::max();
+  facts.end = reenactment.run(application, std::min(last, asked), [&] { return view.look(); });
   facts.duration = application.now() - base::Time{};
   facts.wall_time = platform::monotonic_now() - wall_begin;
-  Done done{.to_the_end = facts.end != exec::RunEnd::kConditionMet && application.now() < until,
+  Done done{.to_the_end = facts.end != exec::RunEnd::kConditionMet && application.now() < asked &&
+                          (cut_off || application.now() < last),
             .until = application.now(),
             .order = order_of(application),
             .flows = flows_of(application)};
   if (done.to_the_end) done.until = base::Time::max();
-  base::Diagnostics ended = application.stop();
-  ended.append(reenactment.problems());
-  console.show(ended);
+  done.changed = reenactment.changed();
+  console.show(application.stop());
   facts.exit_code = runner::exit_code(facts.end, application);
   done.failed = !write_run_summary(recorded.run, facts, application, console);
   return done;
@@ -171,10 +209,36 @@ void tell(const replay::Difference& first, const Console& console) {
   const std::string port =
       first.channel.size() > component.size() ? first.channel.substr(component.size() + 1) : "";
   console.print("first difference at " + seconds_text(first.time) + ", " +
-                (port.empty() ? "component " + component
-                              : "sample " + std::to_string(first.sequence) + " of component " +
-                                    component + ", port " + port) +
+                (component.empty() ? first.channel
+                 : port.empty()    ? "component " + component
+                                   : "sample " + std::to_string(first.sequence) + " of component " +
+                                      component + ", port " + port) +
                 ":\n  was " + first.was + "\n  is  " + first.is + "\n");
+}
+
+std::string name_of(const exec::Act& act) {
+  const std::string item =
+      act.component + (act.component.empty() || act.item.empty() ? "" : ".") + act.item;
+  return std::string(types::name_of(act.kind)) + " of '" + item + "'";
+}
+
+/// An act that ended otherwise is a difference, too.
+void add_changed(const std::vector<replay::ChangedOutcome>& changed, replay::Comparison& to) {
+  for (const replay::ChangedOutcome& each : changed) {
+    const std::string what = name_of(each.act) + ": ";
+    to.differences.push_back({each.act.component.empty() ? "Modes" : each.act.component,
+                              each.act.time, 0, what + each.was, what + each.is});
+  }
+}
+
+void warn_of_changed(const std::vector<replay::ChangedOutcome>& changed, const Console& console) {
+  for (const replay::ChangedOutcome& each : changed) {
+    console.say(LogLevel::kWarning, "at " + seconds_text(each.act.time) + ", " + name_of(each.act) +
+                                        ": " + each.is +
+                                        "; when it was "
+                                        "recorded, " +
+                                        each.was);
+  }
 }
 
 int compare(const Recorded& recorded, const Done& done, const Console& console) {
@@ -183,8 +247,10 @@ int compare(const Recorded& recorded, const Done& done, const Console& console) 
   options.losses = !losses.known || losses.samples > 0;
   options.until = done.until;
   base::Diagnostics problems;
-  const replay::Comparison found =
+  replay::Comparison found =
       replay::compare_folders(recorded.folder, recorded.run, done.to_the_end, options, problems);
+  if (done.to_the_end) replay::compare_summaries(recorded.folder, recorded.run, found);
+  add_changed(done.changed, found);
   console.show(problems);
   for (const std::string& channel : found.only_recorded) {
     console.say(LogLevel::kError, "'" + channel +
@@ -237,24 +303,41 @@ int replay(const ReplayArguments& arguments, Console& console) {
     return kFailed;
   }
   Recorded& recorded = read.value();
-  const auto place = replay::make_place(recorded.out);
+  const auto place = replay::make_place(recorded.out, recorded.folder);
   if (!place) {
     console.say(LogLevel::kError, place.error());
+    return kFailed;
+  }
+  if (const auto confined = platform::write_only_in(recorded.out); !confined) {
+    console.say(LogLevel::kError, confined.error());
     return kFailed;
   }
   platform::FolderLock lock;
   if (!runner::make_output_folder(recorded.run, lock, console)) return kFailed;
   replay::Changes changes = arguments.changes;
   if (!changes.file.empty()) changes.file = fs::absolute(changes.file).string();
-  std::error_code ignored;
-  fs::current_path(recorded.experiment.folder, ignored);  // relative paths begin there
+  const deploy::DeploymentOptions loading = options_for(arguments);
+  std::error_code failure;
+  fs::current_path(recorded.experiment.folder, failure);  // relative paths begin there
+  if (failure) {
+    console.say(LogLevel::kError,
+                "the recorded run was in '" + recorded.experiment.folder +
+                    "', where its relative paths begin, but: " + failure.message());
+    return kFailed;
+  }
   deploy::Deployment deployment =
-      replay::load_recorded(recorded.experiment, changes, recorded.run, options_for(arguments));
+      replay::load_recorded(recorded.experiment, changes, recorded.run, loading);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
+  if (!expect_no_outside(deployment.blueprint, console)) return kFailed;
   keep_files_in_place(deployment.blueprint);
+  base::Diagnostics copied;
+  replay::work_on_copies(deployment.blueprint, recorded.experiment, recorded.run, copied);
+  console.show(copied);
+  if (!copied.ok()) return kFailed;
   const Done done = do_again(recorded, deployment, arguments, console);
   if (done.failed) return kFailed;
+  if (changes.any()) warn_of_changed(done.changed, console);
   return changes.any() ? show_what_if(recorded, changes, console)
                        : compare(recorded, done, console);
 }

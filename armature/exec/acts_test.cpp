@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/exec/internal/test_components.hpp"
+#include "armature/exec/refusal.hpp"
 
 namespace armature::exec {
 namespace {
@@ -68,6 +69,22 @@ TEST_F(Acts, AreToldWithTheirInstantTurnAndValues) {
   EXPECT_EQ(acts[0].time, base::Time{} + 25ms);
   EXPECT_EQ(acts[0].turn, 2u) << "one for each cycle";
   EXPECT_FALSE(acts[0].attended);
+}
+
+TEST_F(Acts, ThatWereRefusedAreToldAgain) {
+  begin();
+  application->run_for(10ms);
+  ASSERT_TRUE(application->set_property("Mover", "Gain", types::Value::of(2.0)).ok());
+  ASSERT_FALSE(application->set_property("Mover", "Gian", types::Value::of(2.0)).ok());
+  ASSERT_FALSE(application->begin("Mover", "fly", {}).ok());
+  ASSERT_FALSE(application->start_component("Nobody"));
+  ASSERT_EQ(acts.size(), 7u);
+  EXPECT_FALSE(is_refusal(acts[0]) || is_refusal(acts[1]));
+  EXPECT_TRUE(is_refusal(acts[2]) && is_refusal(acts[4]) && is_refusal(acts[6]));
+  EXPECT_EQ(acts[2].turn, 2u) << "the second act";
+  EXPECT_EQ(acts[4].turn, 3u);
+  EXPECT_EQ(acts[6].turn, 4u);
+  EXPECT_THAT(acts[2].item, ::testing::HasSubstr("Gian"));
 }
 
 TEST_F(Acts, OfCommandsHaveNumbersByWhichTheyAreCancelled) {

@@ -48,6 +48,20 @@ struct Remains {
   }
 };
 
+std::string why_refused(const Outcome& outcome) { return std::string(outcome.reason()); }
+
+template <typename Value>
+std::string why_refused(const base::Result<Value>& result) {
+  return result.error();
+}
+
+/// Tells how an act ended if it was refused.
+template <typename Ending>
+Ending told(internal::Journal& journal, std::uint64_t act, Ending ending) {
+  if (!ending) journal.note_refused(act, why_refused(ending));
+  return ending;
+}
+
 /// False if the one who waits for this moment has an objection.
 bool is_ready(const std::function<void()>& ready, base::Diagnostics& diagnostics) {
   if (!ready) return true;
@@ -170,7 +184,7 @@ base::Diagnostics Application::stop() {
 
 void Application::begin_anew() {
   Parts& all = *parts_;
-  all.health.begin_anew();
+  all.health.begin_anew(all.blueprint);
   all.connections.declare_reactions();
   all.engines.clear();
   all.engines = internal::make_engines(
@@ -306,12 +320,14 @@ std::vector<ThreadStatistics> Application::thread_statistics() const {
 
 Outcome Application::start_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kStart, .component = std::string(name)});
-  return parts_->transitions.start(name);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act, parts_->transitions.start(name));
 }
 
 Outcome Application::stop_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kStop, .component = std::string(name)});
-  return parts_->stop_guard.stop(name);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act, parts_->stop_guard.stop(name));
 }
 
 bool Application::is_on_way_to_stop(std::string_view name) const {
@@ -325,22 +341,26 @@ void Application::cancel_way_to_stop(std::string_view name) {
 
 Outcome Application::recover_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kRecover, .component = std::string(name)});
-  return parts_->transitions.recover(name);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act, parts_->transitions.recover(name));
 }
 
 Outcome Application::reset_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kReset, .component = std::string(name)});
-  return parts_->transitions.reset(name);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act, parts_->transitions.reset(name));
 }
 
 Outcome Application::clean_up_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kCleanUp, .component = std::string(name)});
-  return parts_->transitions.clean_up(name);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act, parts_->transitions.clean_up(name));
 }
 
 Outcome Application::switch_mode(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kMode, .item = std::string(name)});
-  return parts_->modes.switch_to(name);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act, parts_->modes.switch_to(name));
 }
 
 base::Result<void> Application::set_property(std::string_view component, std::string_view property,
@@ -350,7 +370,8 @@ base::Result<void> Application::set_property(std::string_view component, std::st
                         .item = std::string(property),
                         .values = {value},
                         .caller = caller});
-  return parts_->tools.set_property(component, property, value, caller);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act, parts_->tools.set_property(component, property, value, caller));
 }
 
 base::Result<types::Value> Application::value_of(std::string_view component,
@@ -367,7 +388,9 @@ base::Result<std::optional<types::Value>> Application::call(std::string_view com
                         .item = std::string(operation),
                         .values = arguments,
                         .caller = caller});
-  return parts_->tools.call(component, operation, std::move(arguments), caller);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act,
+              parts_->tools.call(component, operation, std::move(arguments), caller));
 }
 
 base::Result<component::CommandHandle> Application::begin(std::string_view component,
@@ -379,7 +402,9 @@ base::Result<component::CommandHandle> Application::begin(std::string_view compo
                                                      .item = std::string(command),
                                                      .values = arguments,
                                                      .caller = caller});
-  return parts_->tools.begin(component, command, std::move(arguments), caller, number);
+  const std::uint64_t act = parts_->journal.last();
+  return told(parts_->journal, act,
+              parts_->tools.begin(component, command, std::move(arguments), caller, number));
 }
 
 base::Result<std::int32_t> Application::watch(const std::vector<WatchedNumber>& numbers,

@@ -115,9 +115,12 @@ class BeforeStop : public ::testing::TestWithParam<bool> {
     Blueprint blueprint;
     blueprint.add<Arm>("Left", Activity::periodic(1ms));
     blueprint.add<Arm>("Right", Activity::periodic(1ms));
+    blueprint.add<Arm>("Shadow", Activity::periodic(1ms));
+    blueprint.components.back().shadow = true;
     ApplicationOptions options = patient(GetParam());
     options.before_stop = {{"Left", "home"}, {"Right", "home"}};
     options.before_stop_limit = 1s;
+    options.log = [this](const rt::LogRecord& record) { log_ += record.message() + "\n"; };
     application_.emplace(std::move(blueprint), std::move(options));
     EXPECT_EQ(application_->start().to_text(), "");
   }
@@ -132,6 +135,7 @@ class BeforeStop : public ::testing::TestWithParam<bool> {
     return *application_->value_of(arm, "steps_gone").value().get_if<int>();
   }
 
+  std::string log_;
   std::optional<Application> application_;
 };
 INSTANTIATE_TEST_SUITE_P(InBothKindsOfTime, BeforeStop, ::testing::Bool(),
@@ -175,6 +179,17 @@ TEST_P(BeforeStop, NothingIsDoneAfterAFault) {
   EXPECT_EQ(finish(RunEnd::kFaulted), "");
   EXPECT_EQ(finish(RunEnd::kStoppedByReaction), "");
   EXPECT_EQ(steps_gone("Left"), 0);
+  EXPECT_THAT(log_, HasSubstr("'Left.home' is left out, since something has faulted"));
+}
+
+TEST_P(BeforeStop, AFaultOfAShadowIsNoneOfIt) {
+  component::Component& shadow = *application_->find("Shadow");
+  ASSERT_TRUE(application_->run_in_thread_of(shadow, [&shadow] { shadow.fault("broken"); }));
+  application_->run_for(10ms);
+  EXPECT_EQ(shadow.state(), component::State::kException);
+  EXPECT_EQ(finish(), "");
+  EXPECT_EQ(steps_gone("Right"), 5);
+  EXPECT_EQ(application_->faults(), 0u);
 }
 
 TEST_P(BeforeStop, AFaultEndsItAndNothingFollows) {

@@ -203,6 +203,21 @@ TEST_P(InModes, TheNewWriterSeesWhatItTakesOverAndAtNoOtherStart) {
   EXPECT_EQ(a->taken_over, 2.0);
 }
 
+TEST_P(InModes, WhatAShadowReadsInTurnsIsNotTakenOver) {
+  Actor& copy = add_actor("Copy", 7.0);
+  copy.journal = &journal;
+  blueprint.modes[0].members.push_back({"Copy", {}});
+  Motor& mirror = blueprint.add<Motor>("Mirror", Activity::triggered());
+  face(mirror.act).set_max_age(component::max_age(10s));
+  blueprint.components.back().shadow = true;
+  blueprint.connect("Copy.Act", "Mirror.Act");
+  blueprint.connect("B.Act", "Mirror.Act");
+  start();
+  ASSERT_TRUE(drives(1.0));
+  ASSERT_TRUE(application->switch_mode("b"));
+  EXPECT_EQ(b->taken_over, 1.0) << "of A, who drove";
+}
+
 TEST_P(InModes, ARefusedStartUndoesWhatHadStartedAndThePresentModeGoesOn) {
   second->refusals["start"] = "no ink";
   start();

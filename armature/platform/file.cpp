@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "armature/platform/confinement.hpp"
 #include "armature/platform/internal/descriptor.hpp"
 
 namespace armature::platform {
@@ -151,6 +152,7 @@ base::Result<FolderLock> FolderLock::take(const std::string& folder) {
 }
 
 base::Result<void> expect_writable(const std::string& path) {
+  if (auto inside = expect_inside(path); !inside) return inside;
   const std::size_t slash = path.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
   struct stat present {};
@@ -164,6 +166,7 @@ base::Result<void> expect_writable(const std::string& path) {
 }
 
 base::Result<void> write_file(const std::string& path, std::string_view content) {
+  if (auto inside = expect_inside(path); !inside) return inside;
   struct stat present {};
   const bool exists = ::stat(path.c_str(), &present) == 0;
   if (exists && !S_ISREG(present.st_mode)) return write_in_place(path, content);

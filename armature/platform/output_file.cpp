@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "armature/platform/confinement.hpp"
+
 namespace armature::platform {
 namespace {
 
@@ -31,6 +33,7 @@ OutputFile::~OutputFile() {
 }
 
 base::Result<OutputFile> OutputFile::create(const std::string& path) {
+  if (const auto inside = expect_inside(path); !inside) return base::Error{inside.error()};
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_NOCTTY | O_CLOEXEC,
                         S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
   if (fd < 0) return cannot_write(path, errno);

@@ -5,14 +5,17 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "armature/exec/application_options.hpp"
+#include "armature/exec/refusal.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/platform/output_file.hpp"
 #include "armature/record/json.hpp"
@@ -27,7 +30,14 @@ using types::name_of;
 /// Of a disk that hangs, no more is kept than this [bytes].
 constexpr std::size_t kMostWaiting = 4u << 20;
 
+constexpr base::Duration kPatience = std::chrono::seconds(1);
+
+std::string written(const Json& line) {
+  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 std::string line_of(const Act& act) {
+  if (exec::is_refusal(act)) return written({{"refused", act.turn}, {"why", act.item}});
   Json line{{"time_ns", base::to_ns(act.time)},
             {"turn", act.turn},
             {"act", std::string(name_of(act.kind))}};
@@ -42,12 +52,23 @@ std::string line_of(const Act& act) {
   if (act.caller != exec::Caller::kOperator) line["caller"] = std::string(name_of(act.caller));
   if (act.command != 0) line["command"] = act.command;
   if (act.attended) line["attended"] = true;
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return written(line);
+}
+
+/// A number that is too large, or none, is no number of such a file.
+template <typename Number>
+Number number_in(const Json& line, const char* name) {
+  const Json& value = line.at(name);
+  const bool fits =
+      std::is_unsigned_v<Number> ? value.is_number_unsigned() : value.is_number_integer();
+  if (!fits || value.get<Json::number_unsigned_t>() > std::numeric_limits<Number>::max()) {
+    throw Json::other_error::create(501, std::string(name) + " must be a whole number", &value);
+  }
+  return value.get<Number>();
 }
 
 /// Throws what nlohmann throws if a member is missing or is something else.
-std::optional<RecordedAct> act_in(std::string_view text) {
-  const Json line = Json::parse(text);
+std::optional<RecordedAct> act_in(const Json& line) {
   RecordedAct read;
   Act& act = read.act;
   const auto kind = types::value_named<Act::Kind>(line.at("act").get<std::string>());
@@ -55,14 +76,22 @@ std::optional<RecordedAct> act_in(std::string_view text) {
   if (!kind || !caller) return std::nullopt;
   act.kind = *kind;
   act.caller = *caller;
-  act.time = base::time_from_ns(line.at("time_ns").get<std::int64_t>());
-  line.at("turn").get_to(act.turn);
+  act.time = base::time_from_ns(number_in<std::int64_t>(line, "time_ns"));
+  act.turn = number_in<std::uint64_t>(line, "turn");
   act.component = line.value("component", std::string());
   act.item = line.value("item", std::string());
-  act.command = line.value("command", std::uint32_t{0});
+  if (line.contains("command")) act.command = number_in<std::uint32_t>(line, "command");
   act.attended = line.value("attended", false);
   if (line.contains("values")) line["values"].get_to(read.values);
   return read;
+}
+
+/// @return whether there is such an act
+bool take_refusal(const Json& line, std::vector<RecordedAct>& acts) {
+  const auto number = number_in<std::uint64_t>(line, "refused");
+  if (number == 0 || number > acts.size()) return false;
+  acts[number - 1].refused = line.at("why").get<std::string>();
+  return true;
 }
 
 }  // namespace
@@ -76,6 +105,7 @@ struct ActsWriter::State {
   std::uint64_t lost = 0;
   bool writing = false;
   bool ending = false;
+  bool too_slow = false;  ///< nobody waits for the disk any more
   std::optional<base::Error> failure;
   platform::OutputFile file;  ///< the thread's
 
@@ -118,18 +148,20 @@ ActsWriter::~ActsWriter() { static_cast<void>(close()); }
 
 void ActsWriter::add(const Act& act) {
   const std::string line = line_of(act);
-  const std::lock_guard lock(state_->mutex);
+  std::unique_lock lock(state_->mutex);
   if (state_->waiting.size() + line.size() > kMostWaiting) {
     ++state_->lost;
     return;
   }
   state_->waiting += line;
   state_->changed.notify_all();
+  if (state_->too_slow) return;
+  state_->too_slow = !state_->changed.wait_for(
+      lock, kPatience, [this] { return state_->waiting.empty() && !state_->writing; });
 }
 
 base::Result<void> ActsWriter::close() {
   if (thread_ == nullptr) return {};
-  constexpr base::Duration kPatience = std::chrono::seconds(1);
   std::unique_lock lock(state_->mutex);
   state_->changed.wait_for(lock, kPatience,
                            [this] { return state_->waiting.empty() && !state_->writing; });
@@ -147,25 +179,34 @@ base::Result<void> ActsWriter::close() {
                      "', since the disk is too slow: this run cannot be replayed"};
 }
 
+base::Result<std::vector<RecordedAct>> parse_acts(std::string_view text, const std::string& path) {
+  std::vector<RecordedAct> acts;
+  std::string_view rest = text;
+  for (int number = 1; rest.find('\n') != std::string_view::npos; ++number) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    const std::string place = path + ':' + std::to_string(number) + ": ";
+    rest.remove_prefix(line.size() + 1);
+    try {
+      const Json json = Json::parse(line);
+      if (json.contains("refused")) {
+        if (!take_refusal(json, acts)) return base::Error{place + "no such act was refused"};
+        continue;
+      }
+      auto act = act_in(json);
+      if (!act) return base::Error{place + "unknown act or caller"};
+      acts.push_back(std::move(*act));
+    } catch (const Json::exception& problem) {
+      return base::Error{place + "not what armature run leaves: " + problem.what()};
+    }
+  }
+  return acts;
+}
+
 base::Result<std::vector<RecordedAct>> load_acts(const std::string& folder) {
   const std::string path = folder + '/' + kActsFile;
   const auto content = platform::read_file(path);
   if (!content) return base::Error{content.error()};
-  std::vector<RecordedAct> acts;
-  std::string_view rest = content.value();
-  for (int line = 1; rest.find('\n') != std::string_view::npos; ++line) {
-    const std::string_view text = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(text.size() + 1);
-    try {
-      auto act = act_in(text);
-      if (!act) return base::Error{path + ':' + std::to_string(line) + ": unknown act or caller"};
-      acts.push_back(std::move(*act));
-    } catch (const Json::exception& problem) {
-      return base::Error{path + ':' + std::to_string(line) +
-                         ": not what armature run leaves: " + problem.what()};
-    }
-  }
-  return acts;
+  return parse_acts(content.value(), path);
 }
 
 }  // namespace armature::replay

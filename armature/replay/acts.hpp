@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/base/result.hpp"
@@ -14,8 +16,9 @@ namespace armature::replay {
 /// Its name in the folder of a run.
 inline constexpr const char* kActsFile = "acts.jsonl";
 
-/// Writes the acts of a run, a line of JSON each. Whoever tells of one waits for nobody: a thread
-/// writes them, and a disk that hangs holds up that thread alone.
+/// Writes the acts of a run in simulated time, a line of JSON each. Whoever tells of one waits
+/// until it is in the file, where it outlives the process. A thread writes, so that a disk that
+/// hangs holds up nobody for more than a second, once.
 class ActsWriter {
  public:
   /// Makes the file, or empties the one that is there.
@@ -25,6 +28,7 @@ class ActsWriter {
   /// Gives what is left a second to be written.
   ~ActsWriter();
 
+  /// Also the outcome of an act, exec::refusal.
   /// @thread one at a time
   void add(const exec::Act& act);
   /// Completes the file; the error says what is missing in it.
@@ -40,9 +44,14 @@ class ActsWriter {
 
 /// An act as it was read; who knows the types of its values reads them.
 struct RecordedAct {
-  exec::Act act;                    ///< without values
-  std::vector<std::string> values;  ///< as record::to_json has them
+  exec::Act act;                         ///< without values
+  std::vector<std::string> values;       ///< as record::to_json has them
+  std::optional<std::string> refused{};  ///< why, if it was
 };
+
+/// As `load_acts`, of the text of the file.
+/// @param path  for errors
+base::Result<std::vector<RecordedAct>> parse_acts(std::string_view text, const std::string& path);
 
 /// Reads what ActsWriter wrote. A last line that is cut off is left out.
 base::Result<std::vector<RecordedAct>> load_acts(const std::string& folder);

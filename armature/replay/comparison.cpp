@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace armature::replay {
@@ -12,17 +13,36 @@ namespace {
 using record::McapRecording;
 using record::RecordedSample;
 
-/// Samples of one channel by their numbers. The first sample of a property may share its number
-/// with none.
-using Samples = std::map<std::uint32_t, const RecordedSample*>;
+using InOrder = std::vector<const RecordedSample*>;
 
-std::map<std::string, Samples> by_channel(const McapRecording& recording) {
-  std::map<std::string, Samples> channels;
+std::map<std::string, InOrder> by_channel(const McapRecording& recording) {
+  std::map<std::string, InOrder> channels;
   for (const record::RecordedChannel& channel : recording.channels) channels[channel.name];
   for (const RecordedSample& sample : recording.samples) {
-    channels[recording.channels[sample.channel].name].emplace(sample.sequence, &sample);
+    channels[recording.channels[sample.channel].name].push_back(&sample);
   }
   return channels;
+}
+
+bool is_numbered(const InOrder& samples) {
+  std::set<std::uint32_t> numbers;
+  return std::ranges::all_of(samples, [&numbers](const RecordedSample* sample) {
+    return numbers.insert(sample->sequence).second;
+  });
+}
+
+/// By what a sample is found in the other recording: its number; where numbers come again, as in
+/// channels that nobody counts, the time and how many came at that time before.
+using Key = std::tuple<std::uint32_t, base::Time, std::size_t>;
+using Samples = std::map<Key, const RecordedSample*>;
+
+Samples by_key(const InOrder& samples, bool numbered) {
+  Samples keyed;
+  for (const RecordedSample* const sample : samples) {
+    Key key{sample->sequence, numbered ? base::Time{} : sample->time, 0};
+    while (!keyed.emplace(key, sample).second) ++std::get<2>(key);
+  }
+  return keyed;
 }
 
 base::Time last_time(const McapRecording& recording) {
@@ -96,7 +116,7 @@ class Comparer {
       const bool only_now = old == was.end() || (now != is.end() && now->first < old->first);
       const RecordedSample* const before = only_now ? nullptr : old->second;
       const RecordedSample* const after = only_old ? nullptr : now->second;
-      look(only_now ? now->first : old->first, before, after);
+      look(std::get<0>(only_now ? now->first : old->first), before, after);
       if (!only_now) ++old;
       if (!only_old) ++now;
     }
@@ -182,7 +202,8 @@ Comparison compare(const McapRecording& was, const McapRecording& is,
     if (other == replayed.end()) {
       comparer.found().only_recorded.push_back(channel);
     } else {
-      comparer.compare(channel, samples, other->second);
+      const bool numbered = is_numbered(samples) && is_numbered(other->second);
+      comparer.compare(channel, by_key(samples, numbered), by_key(other->second, numbered));
     }
   }
   return comparer.take();

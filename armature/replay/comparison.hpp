@@ -51,9 +51,9 @@ struct Comparison {
                                   const std::vector<std::string>& order) const;
 };
 
-/// Compares what was recorded with what a replay recorded, sample by sample: by their numbers, to
-/// the bit, but for what a NaN has beside being one. Behind the end of a recording that was cut off
-/// nothing is compared.
+/// Compares what was recorded with what a replay recorded, sample by sample: by their numbers, or
+/// by their times in channels whose numbers come again; to the bit, but for what a NaN has beside
+/// being one. Behind the end of a recording that was cut off nothing is compared.
 Comparison compare(const record::McapRecording& was, const record::McapRecording& is,
                    const ComparisonOptions& options);
 

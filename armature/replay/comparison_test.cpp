@@ -85,6 +85,21 @@ TEST(Comparison, WhatTheRecorderLostIsNeitherEqualNorDifferent) {
   EXPECT_EQ(found.missing, 1u);
 }
 
+TEST(Comparison, LooksAtAllSamplesOfAChannelThatNobodyCounts) {
+  McapRecording was = loop();
+  for (auto& one : was.samples) one.sequence = 0;
+  const McapRecording same = was;
+  McapRecording is = was;
+  sample(is, 3, 0).json = "{\"value\":7}";
+  EXPECT_EQ(compare(was, same, {}).equal, 9u);
+  const auto first = compare(was, is, {}).first(kFlows, kOrder);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_EQ(first->time, at_ms(30));
+  is = was;
+  is.samples.erase(is.samples.begin() + 3);
+  EXPECT_EQ(compare(was, is, {}).first(kFlows, kOrder)->is, "no such sample");
+}
+
 TEST(Comparison, EndsWithARecordingThatWasCutOff) {
   McapRecording was = loop();
   was.samples.resize(7);

@@ -41,6 +41,7 @@ Experiment experiment_in(const Json& json) {
   experiment.texts = json.at("texts").get<std::map<std::string, std::string>>();
   experiment.named = json.at("named").get<std::map<std::string, std::string>>();
   experiment.files = json.at("files").get<std::map<std::string, std::string>>();
+  experiment.own = json.value("own", std::map<std::string, Experiment::Contents>());
   json.at("outline").get_to(experiment.outline);
   return experiment;
 }
@@ -72,6 +73,7 @@ base::Result<void> write_experiment(const std::string& folder, const Experiment&
                   {"texts", experiment.texts},
                   {"named", experiment.named},
                   {"files", experiment.files},
+                  {"own", experiment.own},
                   {"outline", experiment.outline}};
   return platform::write_file(folder + '/' + kExperimentFile,
                               json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');

@@ -35,7 +35,11 @@ struct Experiment {
   std::map<std::string, std::string> texts;  ///< of the deployment and what it includes, by path
   std::map<std::string, std::string> named;  ///< paths, by the properties that have them
   std::map<std::string, std::string> files;  ///< that these paths lead to; small texts only
-  std::string outline;                       ///< runner::outline of what ran
+  /// Of properties that name files which components change: texts by their names in the folder that
+  /// the property names; by "" of the file that it names.
+  using Contents = std::map<std::string, std::string>;
+  std::map<std::string, Contents> own;
+  std::string outline;  ///< runner::outline of what ran
 };
 
 /// Of 64 bits, as hexadecimal digits: equal contents have equal hashes.

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/base/seconds.hpp"
+#include "armature/exec/run_end.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/record/mcap_reader.hpp"
 
@@ -133,22 +134,59 @@ class FolderComparison {
   Comparison found_;
 };
 
+/// What a run has left at its end; no object if it has left none.
+nlohmann::json summary_in(const std::string& folder) {
+  const auto text = platform::read_file(folder + '/' + kSummary);
+  return text ? nlohmann::json::parse(text.value(), nullptr, false) : nlohmann::json();
+}
+
+/// A run ends by a fault, by a reaction, or in order: a replay has neither the time limit of the
+/// run nor its signals.
+std::string summary_text(const nlohmann::json& summary, const char* what) {
+  const nlohmann::json value = summary.value(what, nlohmann::json());
+  if (!value.is_string()) return value.dump();
+  const auto end = types::value_named<exec::RunEnd>(value.get<std::string>());
+  const bool of_itself = end == exec::RunEnd::kFaulted || end == exec::RunEnd::kStoppedByReaction;
+  return of_itself ? value.get<std::string>() : "in order";
+}
+
+/// When the first of the two ended.
+base::Time end_in(const nlohmann::json& one, const nlohmann::json& other) {
+  constexpr double kLongest = 1e9;  // seconds
+  double end_s = kLongest;
+  for (const nlohmann::json* const each : {&one, &other}) {
+    const nlohmann::json duration = each->value("duration_s", nlohmann::json());
+    if (duration.is_number()) end_s = std::clamp(duration.get<double>(), 0.0, end_s);
+  }
+  return base::Time{} + base::from_seconds(end_s);
+}
+
+/// By whatever names and links.
+bool lies_in(const fs::path& inner, const fs::path& outer) {
+  std::error_code failure;
+  const fs::path whole = fs::weakly_canonical(inner, failure);
+  const fs::path around = fs::weakly_canonical(outer, failure);
+  return std::mismatch(around.begin(), around.end(), whole.begin(), whole.end()).first ==
+         around.end();
+}
+
 }  // namespace
 
 bool has_recordings(const std::string& folder) { return !recordings_in(folder).empty(); }
 
 Losses losses_of(const std::string& folder, const Experiment& experiment) {
-  const auto text = platform::read_file(folder + '/' + kSummary);
-  if (!text) return {};
-  const auto summary = nlohmann::json::parse(text.value(), nullptr, false);
+  const nlohmann::json summary = summary_in(folder);
   if (!summary.is_object() || !summary.contains("counters")) return {};
-  Losses losses{true, 0};
   const auto& counters = summary["counters"];
+  if (!counters.is_object()) return {};
+  Losses losses{true, 0};
   for (const std::string& recorder : recorders_in(experiment.outline)) {
     for (const char* const counter : {".dropped", ".not_written"}) {
       const auto found = counters.find(recorder + counter);
       if (found == counters.end() || !found->contains("value")) continue;
-      losses.samples += (*found)["value"].get<std::uint64_t>();
+      const auto& value = (*found)["value"];
+      if (!value.is_number_unsigned()) return {};  // nobody knows
+      losses.samples += value.get<std::uint64_t>();
     }
   }
   return losses;
@@ -161,6 +199,20 @@ Comparison compare_folders(const std::string& was, const std::string& is, bool c
   return comparison.take();
 }
 
+void compare_summaries(const std::string& was, const std::string& is, Comparison& to) {
+  const nlohmann::json before = summary_in(was);
+  const nlohmann::json after = summary_in(is);
+  if (!before.is_object() || !after.is_object()) return;
+  for (const char* const what : {"end", "faults", "reactions"}) {
+    const std::string then = summary_text(before, what);
+    const std::string now = summary_text(after, what);
+    if (then == now) continue;
+    to.differences.push_back({"the run", end_in(before, after), 0, std::string(what) + ": " + then,
+                              std::string(what) + ": " + now});
+    return;
+  }
+}
+
 base::Time end_of_recordings(const std::string& folder) {
   base::Time end = base::Time::min();
   for (const fs::path& file : recordings_in(folder)) {
@@ -171,8 +223,13 @@ base::Time end_of_recordings(const std::string& folder) {
   return end;
 }
 
-base::Result<void> make_place(const std::string& folder) {
+base::Result<void> make_place(const std::string& folder, const std::string& run) {
   std::error_code failure;
+  if (lies_in(run, folder)) {
+    return base::Error{"'" + folder +
+                       "' has the recorded run in it, and would be emptied: name an "
+                       "empty or a new folder with -o"};
+  }
   fs::create_directories(folder, failure);
   if (failure) return base::Error{"cannot make the folder '" + folder + "': " + failure.message()};
   const fs::path mark = fs::path(folder) / kReplayFile;

@@ -29,12 +29,17 @@ Losses losses_of(const std::string& folder, const Experiment& experiment);
 Comparison compare_folders(const std::string& was, const std::string& is, bool complete,
                            const ComparisonOptions& options, base::Diagnostics& diagnostics);
 
+/// Whether the summaries of a run and its replay tell of the same end, and of as many faults and
+/// reactions. A run that was killed has left none: nothing is compared.
+void compare_summaries(const std::string& was, const std::string& is, Comparison& to);
+
 /// The last time in the recordings of a folder; the begin of time if there are none.
 base::Time end_of_recordings(const std::string& folder);
 
 /// Empties `folder`, if a replay made it, or makes it. The error says that somebody else's files
-/// are in it.
-base::Result<void> make_place(const std::string& folder);
+/// are in it, or the recorded run.
+/// @param run  the folder of the recorded run
+base::Result<void> make_place(const std::string& folder, const std::string& run);
 
 /// Copies recordings and summary of a run, for a report beside another run.
 base::Result<void> copy_run(const std::string& from, const std::string& to);

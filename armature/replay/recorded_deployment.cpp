@@ -10,11 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/base/quoted.hpp"
-#include "armature/base/utf8.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/deploy/loader.hpp"
 #include "armature/platform/file.hpp"
+#include "armature/replay/own_files.hpp"
+#include "armature/replay/small_text.hpp"
 #include "armature/runner/fingerprint.hpp"
 
 namespace armature::replay {
@@ -23,22 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestFile = 1u << 20;
-
-bool is_utf8(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const auto character = base::code_point_at(text, at);
-    if (!character) return false;
-    at = character->end;
-  }
-  return true;
-}
-
-/// The content of a small text file; nothing if it is something else.
-std::optional<std::string> small_text(const std::string& path) {
-  auto content = platform::read_file(path, kLargestFile);
-  if (!content || !is_utf8(content.value())) return std::nullopt;
-  return std::move(content).value();
-}
 
 /// The path that a property's value is; empty if it is none.
 std::string path_in(const component::PropertyBase& property) {
@@ -54,10 +39,11 @@ void add_named_files(const exec::Blueprint& blueprint, Experiment& to) {
     const component::Interface& interface = component::interface_of(*entry.component);
     if (!interface.observers.empty()) continue;  // what they name they write
     for (const component::PropertyBase* property : interface.properties) {
+      if (names_own_files(property->name())) continue;
       const std::string path = path_in(*property);
       if (path.empty()) continue;
       if (!to.files.contains(path)) {
-        auto content = small_text(path);
+        auto content = small_text(path, kLargestFile);
         if (!content) continue;
         to.files.emplace(path, std::move(*content));
       }
@@ -157,25 +143,61 @@ void warn_of_outline(const std::string& then, const std::string& now,
 }
 
 /// A file that changes the recorded deployment is one that includes it, so its entries win.
-deploy::Deployment load(const Experiment& experiment, const Changes& changes,
-                        const deploy::DeploymentOptions& options) {
-  if (changes.file.empty()) return deploy::load_deployment(experiment.deployment, options);
-  deploy::Deployment refused;
-  const auto text = platform::read_file(changes.file);
-  if (!text) {
-    refused.diagnostics.error({}, text.error());
-    return refused;
-  }
+base::Result<std::string> text_with(const Experiment& experiment, const std::string& file) {
+  const auto text = platform::read_file(file);
+  if (!text) return base::Error{text.error()};
   if (('\n' + text.value()).find("\ninclude:") != std::string::npos) {
-    refused.diagnostics.error({changes.file, 0, 0},
-                              "it includes other files, but here it is added to the recorded "
-                              "deployment",
-                              "remove include, and write what is to change into it");
-    return refused;
+    return base::Error{"'" + file +
+                       "' includes other files, but here it is added to the recorded deployment: "
+                       "remove include, and write what is to change into it"};
   }
   // In the last line, so that places in the file stay what they are.
-  const std::string whole = text.value() + "\ninclude: '" + normal(experiment.deployment) + "'\n";
-  return deploy::parse_deployment(whole, changes.file, options);
+  return text.value() + "\ninclude: '" + normal(experiment.deployment) + "'\n";
+}
+
+document::Document parse(const Experiment& experiment, const Changes& changes,
+                         const std::string& text, const deploy::LoadOptions& options,
+                         base::Diagnostics& diagnostics) {
+  if (changes.file.empty()) {
+    return deploy::load_document(experiment.deployment, options, diagnostics);
+  }
+  return deploy::parse_document(text, changes.file, options, diagnostics);
+}
+
+std::string folder_of(const std::string& file) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(file, ignored), ignored).parent_path().string();
+}
+
+std::string with_commas(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// The folder of a run may be somebody else's: it does not say which code is run. Libraries are
+/// those of `-L` and of the usual places, but for the one beside the deployment.
+void expect_trusted_libraries(const Experiment& experiment, const document::Document& document,
+                              const std::vector<std::string>& first,
+                              base::Diagnostics& diagnostics) {
+  std::vector<std::string> trusted = deploy::library_folders(first, "");
+  trusted.pop_back();
+  for (std::string& folder : trusted) folder = folder_of(folder + "/any");
+  for (const document::Reference& library : document.libraries) {
+    const auto file =
+        deploy::find_library(library.name, deploy::library_folders(first, document.file));
+    const std::string used = with_commas(experiment.library_folders);
+    const std::string hint = used.empty() ? "name its folder with -L"
+                                          : "name its folder with -L; the run had -L " + used;
+    if (!file) {
+      diagnostics.error(library.where, file.error(), hint);
+    } else if (std::ranges::find(trusted, folder_of(file.value())) == trusted.end()) {
+      diagnostics.error(library.where,
+                        "component library '" + library.name + "' would be '" + file.value() +
+                            "', which the folder of the run alone says",
+                        hint);
+    }
+  }
 }
 
 }  // namespace
@@ -192,9 +214,22 @@ deploy::Deployment load_recorded(const Experiment& experiment, const Changes& ch
   all.document.overrides.insert(all.document.overrides.end(), changes.overrides.begin(),
                                 changes.overrides.end());
   all.mode = experiment.mode;
-  all.library_folders.insert(all.library_folders.end(), experiment.library_folders.begin(),
-                             experiment.library_folders.end());
-  deploy::Deployment deployment = load(experiment, changes, all);
+  deploy::Deployment deployment;
+  std::string text;
+  if (!changes.file.empty()) {
+    auto changed = text_with(experiment, changes.file);
+    if (!changed) {
+      deployment.diagnostics.error({changes.file, 0, 0}, changed.error());
+      return deployment;
+    }
+    text = std::move(changed).value();
+  }
+  deployment.document = parse(experiment, changes, text, all.document, deployment.diagnostics);
+  expect_trusted_libraries(experiment, deployment.document, all.library_folders,
+                           deployment.diagnostics);
+  if (!deployment.ok()) return deployment;
+  deployment = changes.file.empty() ? deploy::load_deployment(experiment.deployment, all)
+                                    : deploy::parse_deployment(text, changes.file, all);
   warn_of_libraries(experiment, deployment.document, all.library_folders, found);
   if (deployment.ok() && !changes.any()) {
     warn_of_outline(experiment.outline, runner::outline(deployment.blueprint, deployment.options),
@@ -228,6 +263,7 @@ Experiment experiment_of(const deploy::Deployment& deployment,
   experiment.libraries = used_libraries(deployment.document, how.library_folders);
   experiment.texts = std::move(texts);
   add_named_files(deployment.blueprint, experiment);
+  keep_own_files(deployment.blueprint, experiment);
   experiment.outline = runner::outline(deployment.blueprint, deployment.options);
   return experiment;
 }

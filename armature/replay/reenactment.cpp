@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "armature/base/quoted.hpp"
-#include "armature/base/seconds.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/exec/inlets.hpp"
 #include "armature/inspect/items.hpp"
@@ -15,7 +13,6 @@ namespace armature::replay {
 
 using exec::Act;
 using exec::RunEnd;
-using types::name_of;
 
 namespace {
 
@@ -38,7 +35,8 @@ bool Reenactment::cut_off() const {
 }
 
 bool Reenactment::is_due(const Act& act) const {
-  return application_->now() >= act.time && application_->turns() >= act.turn;
+  const bool turned = due_ == DueBy::kTime || application_->turns() >= act.turn;
+  return turned && application_->now() >= act.time;
 }
 
 void Reenactment::attend() {
@@ -48,9 +46,12 @@ void Reenactment::attend() {
   }
 }
 
-/// The next that is done between two stretches of the run; `attend` does the others on the way.
+/// The next that is done between two stretches of the run; `attend` does the others on the way, if
+/// the run comes by them.
 const RecordedAct* Reenactment::take_next() {
-  while (next_ < acts_.size() && acts_[next_].act.attended) ++next_;
+  for (; next_ < acts_.size() && acts_[next_].act.attended; ++next_) {
+    compare(acts_[next_], "this run does not come by the turn in which it was done");
+  }
   return next_ < acts_.size() ? &acts_[next_] : nullptr;
 }
 
@@ -76,8 +77,10 @@ RunEnd Reenactment::run(exec::Application& application, base::Time until,
     const bool by_itself = end == RunEnd::kFaulted || end == RunEnd::kStoppedByReaction;
     if (!by_itself) end = RunEnd::kTimeUp;
     const bool reached = act != nullptr && application.now() >= act->time;
-    if (!reached || act->kind == Act::Kind::kEnd || (by_itself && !is_of_the_end(*act))) break;
-    perform(*take_next());
+    if (!reached || (by_itself && !is_of_the_end(*act))) break;
+    const RecordedAct& next = *take_next();
+    if (next.act.kind == Act::Kind::kEnd) break;
+    perform(next);
     ++next_;
   }
   application_ = nullptr;
@@ -85,120 +88,132 @@ RunEnd Reenactment::run(exec::Application& application, base::Time until,
 }
 
 void Reenactment::perform(const RecordedAct& recorded) {
-  if (auto values = values_of(recorded)) perform(recorded.act, std::move(*values));
+  auto values = values_of(recorded);
+  compare(recorded, values ? perform(recorded.act, std::move(values).value()) : values.error());
 }
 
-/// What was refused is refused again, which is no problem.
-void Reenactment::perform(const Act& act, std::vector<Value> values) {
+/// @param refused  why it is refused now; empty if it is done
+void Reenactment::compare(const RecordedAct& recorded, const std::string& refused) {
+  if (recorded.refused.has_value() == !refused.empty()) return;
+  const auto told = [](const std::string& why) {
+    return why.empty() ? std::string("it is done") : "it is refused: " + why;
+  };
+  changed_.push_back({recorded.act, told(recorded.refused.value_or("")), told(refused)});
+}
+
+namespace {
+
+/// Why it was refused, empty if it was not.
+std::string refusal_in(const component::Outcome& outcome) {
+  return outcome ? std::string() : std::string(outcome.reason());
+}
+
+template <typename T>
+std::string refusal_in(const base::Result<T>& result) {
+  return result ? std::string() : result.error();
+}
+
+}  // namespace
+
+/// @return why it was refused, empty if it was not
+std::string Reenactment::perform(const Act& act, std::vector<Value> values) {
   using Kind = Act::Kind;
   exec::Application& application = *application_;
   switch (act.kind) {
     case Kind::kCall:
-      static_cast<void>(application.call(act.component, act.item, std::move(values), act.caller));
-      return;
-    case Kind::kBegin:
-      if (auto begun = application.begin(act.component, act.item, std::move(values), act.caller)) {
-        commands_.insert_or_assign(act.command, std::move(begun).value());
-      }
-      return;
-    case Kind::kCancel:
-      if (const auto command = commands_.find(act.command); command != commands_.end()) {
-        command->second.cancel();
-      }
-      return;
+      return refusal_in(application.call(act.component, act.item, std::move(values), act.caller));
+    case Kind::kBegin: {
+      auto begun = application.begin(act.component, act.item, std::move(values), act.caller);
+      if (!begun) return begun.error();
+      commands_.insert_or_assign(act.command, std::move(begun).value());
+      return {};
+    }
+    case Kind::kCancel: {
+      const auto command = commands_.find(act.command);
+      if (command == commands_.end()) return "no such command was begun";
+      command->second.cancel();
+      return {};
+    }
     case Kind::kSet:
-      static_cast<void>(
+      return refusal_in(
           application.set_property(act.component, act.item, values.front(), act.caller));
-      return;
     case Kind::kWrite:
       return write(act, values.front());
     case Kind::kStart:
-      static_cast<void>(application.start_component(act.component));
-      return;
+      return refusal_in(application.start_component(act.component));
     case Kind::kStop:
-      static_cast<void>(application.stop_component(act.component));
-      return;
+      return refusal_in(application.stop_component(act.component));
     case Kind::kCancelStop:
-      return application.cancel_way_to_stop(act.component);
+      application.cancel_way_to_stop(act.component);
+      return {};
     case Kind::kRecover:
-      static_cast<void>(application.recover_component(act.component));
-      return;
+      return refusal_in(application.recover_component(act.component));
     case Kind::kReset:
-      static_cast<void>(application.reset_component(act.component));
-      return;
+      return refusal_in(application.reset_component(act.component));
     case Kind::kCleanUp:
-      static_cast<void>(application.clean_up_component(act.component));
-      return;
+      return refusal_in(application.clean_up_component(act.component));
     case Kind::kMode:
-      static_cast<void>(application.switch_mode(act.item));
-      return;
+      return refusal_in(application.switch_mode(act.item));
     case Kind::kBeforeStop:
     case Kind::kMistake: {
       const auto end = types::value_named<RunEnd>(act.item).value_or(RunEnd::kTimeUp);
       const auto leave =
           act.kind == Kind::kMistake ? exec::Leave::kAfterMistake : exec::Leave::kInOrder;
       application.run_before_stop(end, nullptr, leave);
-      return;
+      return {};
     }
     case Kind::kEnd:
-      return;
+      return {};
   }
+  return {};
 }
 
-void Reenactment::write(const Act& act, const Value& value) {
+std::string Reenactment::write(const Act& act, const Value& value) {
   auto* const inlets = dynamic_cast<exec::Inlets*>(application_->find(act.component));
   const component::InputPortBase* const input = input_named(*application_, act.item);
   if (inlets == nullptr || input == nullptr || !inlets->writes(*input)) {
-    return complain(act, "it is not open any more");
+    return "it is not open any more";
   }
   static_cast<void>(inlets->write(*application_, *input, value));
+  return {};
 }
 
-/// Nothing if what the act is about is not there any more, which was told.
-std::optional<std::vector<const types::Type*>> Reenactment::types_of(const Act& act) {
-  const bool of_values = act.kind == Act::Kind::kCall || act.kind == Act::Kind::kBegin ||
-                         act.kind == Act::Kind::kSet || act.kind == Act::Kind::kWrite;
-  if (!of_values) return std::vector<const types::Type*>{};
+/// Of operations and commands their arguments, of what is set or written the one that it has.
+base::Result<std::vector<const types::Type*>> Reenactment::types_of(const Act& act) {
+  const bool of_call = act.kind == Act::Kind::kCall || act.kind == Act::Kind::kBegin;
+  const bool of_value = act.kind == Act::Kind::kSet || act.kind == Act::Kind::kWrite;
+  std::vector<const types::Type*> types;
+  if (!of_call && !of_value) return types;
   const std::string name =
       act.kind == Act::Kind::kWrite ? act.item : act.component + '.' + act.item;
   const auto member = inspect::find_member(*application_, name);
-  if (!member) {
-    complain(act, member.error());
-    return std::nullopt;
-  }
-  std::vector<const types::Type*> types;
-  if (const component::OperationBase* const operation = member.value().operation) {
+  if (!member) return base::Error{member.error()};
+  const component::OperationBase* const operation = member.value().operation;
+  if (of_call && operation != nullptr) {
     for (const auto& argument : operation->signature().arguments) types.push_back(argument.type);
-  } else if (member.value().has_value()) {
+  } else if (of_value && operation == nullptr && member.value().has_value()) {
     types.push_back(&member.value().type());
+  } else {
+    return base::Error{"'" + name + (of_call ? "' cannot be called" : "' has no value to set")};
   }
   return types;
 }
 
-std::optional<std::vector<types::Value>> Reenactment::values_of(const RecordedAct& recorded) {
+base::Result<std::vector<types::Value>> Reenactment::values_of(const RecordedAct& recorded) {
   const auto types = types_of(recorded.act);
-  if (!types) return std::nullopt;
-  if (types->size() != recorded.values.size()) {
-    complain(recorded.act, "it takes " + std::to_string(types->size()) + " values now, not " +
-                               std::to_string(recorded.values.size()));
-    return std::nullopt;
+  if (!types) return base::Error{types.error()};
+  if (types.value().size() != recorded.values.size()) {
+    return base::Error{"it takes " + std::to_string(types.value().size()) + " values now, not " +
+                       std::to_string(recorded.values.size())};
   }
   std::vector<Value> values;
-  for (std::size_t i = 0; i < types->size(); ++i) {
-    Value& value = values.emplace_back(*(*types)[i]);
+  for (std::size_t i = 0; i < types.value().size(); ++i) {
+    Value& value = values.emplace_back(*types.value()[i]);
     const auto read = record::from_json(value.type(), recorded.values[i], value.data());
     if (read) continue;
-    complain(recorded.act, "its value " + recorded.values[i] + " does not fit: " + read.error());
-    return std::nullopt;
+    return base::Error{"its value " + recorded.values[i] + " does not fit: " + read.error()};
   }
   return values;
-}
-
-void Reenactment::complain(const Act& act, const std::string& why) {
-  const std::string what = act.component.empty() ? act.item : act.component + '.' + act.item;
-  problems_.warning({}, "at " + std::to_string(base::to_seconds(act.time.time_since_epoch())) +
-                            " s " + std::string(name_of(act.kind)) + " of " + base::quoted(what) +
-                            " cannot be done again: " + why);
 }
 
 }  // namespace armature::replay

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "armature/base/diagnostic.hpp"
+#include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
 #include "armature/component/operations/command.hpp"
 #include "armature/exec/application.hpp"
@@ -17,13 +17,24 @@
 
 namespace armature::replay {
 
+/// An act that was done when the run was recorded and is refused now, or the other way round.
+struct ChangedOutcome {
+  exec::Act act;  ///< without values
+  std::string was;
+  std::string is;
+};
+
+/// When an act is due. The same turns of threads are those of the same deployment only: who changed
+/// it goes by the time.
+enum class DueBy : std::uint8_t { kTurn, kTime };
+
 /// Lets an application run in simulated time as it ran when it was recorded: does each act at its
 /// instant, between the same turns of threads.
 /// @thread the controlling one
 class Reenactment {
  public:
   /// @param acts  of the recorded run, in their order
-  explicit Reenactment(std::vector<RecordedAct> acts) : acts_(std::move(acts)) {}
+  Reenactment(std::vector<RecordedAct> acts, DueBy due) : acts_(std::move(acts)), due_(due) {}
 
   /// For `exec::ApplicationOptions::attend` of the application, which is not made yet: does what
   /// tools did while they were attended to.
@@ -35,9 +46,9 @@ class Reenactment {
   exec::RunEnd run(exec::Application& application, base::Time until,
                    const std::function<bool()>& at_instant);
 
-  /// What could not be done as it was: acts that name what is not there any more, or whose values
-  /// have another type now.
-  const base::Diagnostics& problems() const { return problems_; }
+  /// What did not end as it did, or could not be done: acts that name what is not there any more,
+  /// whose values have another type now, or whose turn did not come.
+  const std::vector<ChangedOutcome>& changed() const { return changed_; }
   /// The account of acts has no end: the recorded run was killed.
   bool cut_off() const;
 
@@ -48,17 +59,18 @@ class Reenactment {
   const exec::Act* next_between() const;
   const RecordedAct* take_next();
   void perform(const RecordedAct& recorded);
-  void perform(const exec::Act& act, std::vector<Value> values);
-  std::optional<std::vector<Value>> values_of(const RecordedAct& recorded);
-  std::optional<std::vector<const types::Type*>> types_of(const exec::Act& act);
-  void write(const exec::Act& act, const Value& value);
-  void complain(const exec::Act& act, const std::string& why);
+  std::string perform(const exec::Act& act, std::vector<Value> values);
+  base::Result<std::vector<Value>> values_of(const RecordedAct& recorded);
+  base::Result<std::vector<const types::Type*>> types_of(const exec::Act& act);
+  std::string write(const exec::Act& act, const Value& value);
+  void compare(const RecordedAct& recorded, const std::string& refused);
 
   std::vector<RecordedAct> acts_;
+  DueBy due_;
   std::size_t next_ = 0;
   exec::Application* application_ = nullptr;
   std::map<std::uint32_t, component::CommandHandle> commands_;  ///< by their numbers
-  base::Diagnostics problems_;
+  std::vector<ChangedOutcome> changed_;
 };
 
 }  // namespace armature::replay

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/component/host.hpp"
 #include "armature/rt/guard.hpp"
-#include "bridges/ros2/internal/effort_check.hpp"
 #include "bridges/ros2/internal/own_thread.hpp"
+#include "bridges/ros2/internal/reach_check.hpp"
 
 namespace armature::ros2 {
 
@@ -133,28 +134,59 @@ void Publisher::tell() {
   lost_.write(lost_count_);
 }
 
-void Subscriber::on_check(component::Check& check) const { internal::check_efforts(*this, check); }
+void Subscriber::on_check(component::Check& check) const {
+  expect_arming(check, internal::check_reach(*this, written_input(check), check));
+}
+
+const component::InputPortBase* Subscriber::written_input(const component::Check& /*check*/) const {
+  return nullptr;
+}
 
 void Subscriber::begin() {
   received_count_ = refused_count_ = 0;
   refuses_ = false;
-  updated_at_ = time();
+  heard_at_ = updated_at_ = time();
+  disarmed_now_ = face(armed_).source() != nullptr;
   deafen();
   received_.write(0);
   refusals_.write(0);
 }
 
+void Subscriber::arm() {
+  disarmed_now_ = false;
+  deafen();
+}
+
+void Subscriber::disarm() {
+  disarmed_now_ = true;
+  deafen();
+}
+
 void Subscriber::deafen() {
-  deaf_ = true;
-  heard_at_ = time();
+  deafened_ = true;
+  deaf_until_ = time() + base::from_seconds(max_silence_);
 }
 
 bool Subscriber::is_silent() const { return time() - heard_at_ > base::from_seconds(max_silence_); }
 
-void Subscriber::expect_arming(component::Check& check) const {
-  if (check.source_of(armed_) != nullptr && check.source_of(stopped_) != nullptr) return;
-  check.error("it is not told when the operator arms or stops the robot, and would go on by itself",
-              "add Arming to its peers");
+/// @param commanded  components that move the robot as this one says
+void Subscriber::expect_arming(component::Check& check,
+                               const std::vector<const Component*>& commanded) const {
+  if (commanded.empty() && !moves_robots()) return;
+  const component::EventBase* const arms = check.source_of(armed_);
+  const component::EventBase* const stops = check.source_of(stopped_);
+  if (arms == nullptr || check.source_of(disarmed_) == nullptr || stops == nullptr) {
+    return check.error(
+        "it is not told when the operator arms or stops the robot, and would go on by itself",
+        "add Arming to its peers");
+  }
+  for (const Component* each : commanded) {
+    const Component& brakes = *internal::brakes(*each, check);
+    if (&brakes == &stops->owner()) continue;
+    check.error("it commands '" + each->name() + "', which '" + brakes.name() +
+                    "' stops, and is told of '" + stops->owner().name() + "'",
+                "give both the same Arming as a peer");
+  }
 }
 
 bool Subscriber::was_held_up() {
@@ -164,18 +196,27 @@ bool Subscriber::was_held_up() {
 
 void Subscriber::receive(Reader& reader, const std::function<std::string(const void*)>& obey) {
   const bool too_old = was_held_up();
-  reader.take(kMostInAnUpdate, [&](const void* sample) {
-    if (deaf_) heard_at_ = time();
-    const std::string why = deaf_     ? "nothing goes on by itself: first nobody must send for "
-                                        "max_silence"
-                            : too_old ? "it waited while the thread of this component was held up"
-                                      : obey(sample);
+  deaf_ = std::exchange(deafened_, false) || time() < deaf_until_;
+  if (deaf_) {
+    for (const Sender& each : reader.senders()) ignored_.insert(each);
+  }
+  reader.take(kMostInAnUpdate, [&](const void* sample, const Sender* sender) {
+    std::string why = objection_to(sender);
+    if (why.empty() && too_old) why = "it waited while the thread of this component was held up";
+    if (why.empty()) why = obey(sample);
     if (!why.empty()) return refuse(why);
     heard_at_ = time();
     refuses_ = false;
     received_.write(++received_count_);
   });
-  if (is_silent()) deaf_ = false;
+}
+
+std::string Subscriber::objection_to(const Sender* sender) {
+  if (sender == nullptr) return "who sent it has gone already";
+  if (disarmed_now_) return "the robot is not armed";
+  if (!ignored_.contains(*sender)) return {};
+  return "nothing goes on by itself: its sender was there when the robot was armed or stopped, or "
+         "this component started, and must begin anew";
 }
 
 void Subscriber::refuse(std::string_view why) {

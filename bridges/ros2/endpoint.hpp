@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,12 +87,14 @@ class Publisher : public Endpoint {
 ///
 /// What waited while its thread was held up for half a second is refused, too: it is too old.
 ///
-/// Nothing goes on by itself: with Arming among its peers, nobody is heard after the operator has
-/// armed, stopped or disarmed the robot, nor after a start, before there was silence for
-/// `max_silence`.
+/// Nothing goes on by itself. With Arming among its peers, it hears nobody before the operator has
+/// armed the robot. Who is there when the operator arms, disarms or stops it, or this component
+/// starts, is not heard any more; nor is who comes within `max_silence` after that. Who begins
+/// later may command: a program that makes its publisher anew.
 ///
-/// What its outputs lead to is checked: an effort only behind a component that takes commands, such
-/// as a generator of motions or a chassis, which keeps the limits.
+/// What it leads to is checked: an effort only behind a component that takes commands and brakes at
+/// the operator's stop, such as a generator of motions or a chassis, which keeps the limits. Where
+/// it leads to one of these, it must be told of the same operator: it needs Arming among its peers.
 class Subscriber : public Endpoint {
  public:
   using Endpoint::Endpoint;
@@ -102,13 +105,15 @@ class Subscriber : public Endpoint {
   /// Takes what has come: `obey` answers why it refuses a message, or nothing.
   void receive(Reader& reader, const std::function<std::string(const void* sample)>& obey);
   void refuse(std::string_view why);
-  /// Nobody is heard any more before there was silence.
+  /// Who is there is not heard any more, nor who comes within `max_silence`.
   void deafen();
-  bool is_deaf() const { return deaf_; }
-  /// There was no message for `max_silence`.
+  bool is_deaf() const { return deaf_ || deafened_; }
+  /// No message was obeyed for `max_silence`.
   bool is_silent() const;
-  /// Refuses a deployment in which it is not told what the operator does.
-  void expect_arming(component::Check& check) const;
+  /// An input that it writes without a connection; nullptr: none.
+  virtual const component::InputPortBase* written_input(const component::Check& check) const;
+  /// It commands motions, whatever it is connected to.
+  virtual bool moves_robots() const { return false; }
 
   component::Property<double> max_silence_{
       this, "max_silence",
@@ -116,15 +121,18 @@ class Subscriber : public Endpoint {
       "s",  component::range(0.02, 10.0)};
 
  private:
+  void arm();
+  void disarm();
+
   component::EventHandler<> armed_{this,
                                    "Arm",
-                                   component::serve<&Subscriber::deafen>,
+                                   component::serve<&Subscriber::arm>,
                                    "the operator has armed the robot",
                                    component::optional,
                                    component::leads_to_nothing()};
   component::EventHandler<> disarmed_{this,
                                       "Disarm",
-                                      component::serve<&Subscriber::deafen>,
+                                      component::serve<&Subscriber::disarm>,
                                       "the robot is disarmed",
                                       component::optional,
                                       component::leads_to_nothing()};
@@ -138,12 +146,19 @@ class Subscriber : public Endpoint {
                                                  "messages since the start that were obeyed"};
   component::OutputPort<std::uint64_t> refusals_{this, "Refused",
                                                  "messages since the start that were not"};
+  void expect_arming(component::Check& check,
+                     const std::vector<const component::Component*>& commanded) const;
   bool was_held_up();
+  std::string objection_to(const Sender* sender);
 
   std::uint64_t received_count_ = 0;
   std::uint64_t refused_count_ = 0;
-  bool refuses_ = false;  ///< the last one was refused
-  bool deaf_ = false;
+  bool refuses_ = false;       ///< the last one was refused
+  bool disarmed_now_ = false;  ///< and nobody is heard
+  bool deafened_ = false;      ///< since the last update
+  bool deaf_ = false;          ///< in this update
+  base::Time deaf_until_{};
+  std::set<Sender> ignored_;  ///< for good
   base::Time updated_at_{};
   base::Time heard_at_{};
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bridges/ros2/joint_trajectory.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "armature/component/face.hpp"
@@ -36,7 +37,6 @@ Trajectory trajectory_of(const trajectory_msgs_msg_dds__JointTrajectory_& messag
 
 void JointTrajectory::on_check(component::Check& check) const {
   Subscriber::on_check(check);
-  expect_arming(check);
   const auto* const plays = check.target_of(play_path_);
   if (plays == nullptr) return;  // which is reported
   for (const component::OutputPortBase* const writer : check.writers_of(desired_)) {
@@ -88,6 +88,7 @@ void JointTrajectory::work() {
     return obey(
         trajectory_of(*static_cast<const trajectory_msgs_msg_dds__JointTrajectory_*>(sample)));
   });
+  if (is_deaf()) forget();
   look_at_silence();
   look_whether_it_rests();
   look_at_motion();
@@ -98,6 +99,10 @@ void JointTrajectory::work() {
 std::string JointTrajectory::obey(Trajectory trajectory) {
   if (std::string why = objection_to(trajectory); !why.empty()) return why;
   if (present_ == trajectory) return {};
+  // A stop may be stamped by another clock; what was sent before the last motion stays refused.
+  if (trajectory.points.empty() && present_) {
+    trajectory.stamp_ns = std::max(trajectory.stamp_ns, present_->stamp_ns);
+  }
   present_ = std::move(trajectory);
   next_ = !present_->points.empty();
   brake();
@@ -105,6 +110,7 @@ std::string JointTrajectory::obey(Trajectory trajectory) {
 }
 
 std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
+  if (trajectory.points.empty()) return {};  // a stop
   if (present_ && trajectory.stamp_ns != 0 && trajectory.stamp_ns < present_->stamp_ns) {
     return "its stamp is before that of the one before";
   }
@@ -113,16 +119,22 @@ std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
 
 void JointTrajectory::look_at_silence() {
   if (!is_silent()) return;
+  if (moves() && !braking_) {
+    log_warning("nobody has sent a trajectory for {} s: the motion brakes", max_silence_.get());
+  }
+  forget();
+}
+
+/// Nothing of what was sent goes on, or begins.
+void JointTrajectory::forget() {
   present_.reset();
   next_ = false;
-  if (!moves() || braking_) return;
-  log_warning("nobody has sent a trajectory for {} s: the motion brakes", max_silence_.get());
   brake();
 }
 
 /// On the path.
 void JointTrajectory::brake() {
-  if (!moves()) return;
+  if (!moves() || braking_) return;
   braking_ = true;
   motion_.cancel();
 }
@@ -141,10 +153,7 @@ void JointTrajectory::look_at_motion() {
     motion_ = component::CommandHandle(component::CallStatus::kNotConnected);
     braking_ = false;
   }
-  if (is_deaf()) {
-    present_.reset();
-    next_ = false;
-  }
+  if (is_deaf()) forget();
   if (!next_ || !rests_) return;
   next_ = false;
   play_next();
@@ -166,6 +175,9 @@ void JointTrajectory::play_next() {
                        : path.error());
   }
   motion_ = play_path_.send(path.value().points, 1.0);
+  if (motion_.sent()) return;
+  deafen();
+  refuse("it cannot be played: " + std::string(component::name_of(motion_.send_status())));
 }
 
 }  // namespace armature::ros2

@@ -24,9 +24,9 @@ namespace armature::ros2 {
 ///
 /// Who commands says so again and again: the same trajectory renews itself. After `max_silence`
 /// without one the motion brakes on its path, and holds. A new one ends the one before in the same
-/// way, and begins from there; one without points only brakes. Where a motion ended for another
-/// reason, such as the operator's stop, or was refused, nobody is heard before `max_silence` has
-/// passed without a message: nothing goes on by itself.
+/// way, and begins from there; one without points only brakes, whatever its stamp. At the
+/// operator's stop it brakes, too. Where a motion ended for another reason, or was refused, who is
+/// there is not heard any more: nothing goes on by itself.
 class JointTrajectory final : public Subscriber {
  public:
   using Subscriber::Subscriber;
@@ -35,6 +35,7 @@ class JointTrajectory final : public Subscriber {
   using Vector = std::vector<double>;
 
   void on_check(component::Check& check) const override;
+  bool moves_robots() const override { return true; }
   std::vector<Objection> objections(const Components& components) const override;
   std::string open(const component::Surroundings& surroundings) override;
   void close() override { reader_.reset(); }
@@ -47,6 +48,7 @@ class JointTrajectory final : public Subscriber {
   std::string objection_to(const internal::Trajectory& trajectory) const;
   void look_at_motion();
   void look_at_silence();
+  void forget();
   void brake();
   void look_whether_it_rests();
   void play_next();

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "bridges/ros2/internal/dds.hpp"
+#include "bridges/ros2/internal/loopback_sockets.hpp"
 
 namespace armature::ros2 {
 namespace {
@@ -110,7 +111,41 @@ bool Writer::write(const void* sample) { return dds_write(entity_, sample) == DD
 
 Reader::~Reader() { participant_->remove(entity_); }
 
-void Reader::take(std::size_t most, const std::function<void(const void*)>& see) {
+/// Of the senders, who came and who went.
+void Reader::look_around() {
+  std::vector<dds_instance_handle_t> handles(2 * senders_.size() + 8);
+  while (true) {
+    const dds_return_t count =
+        dds_get_matched_publications(entity_, handles.data(), handles.size());
+    if (count < 0) return;
+    const bool all = static_cast<std::size_t>(count) <= handles.size();
+    handles.resize(static_cast<std::size_t>(count));
+    if (all) break;
+  }
+  std::map<std::uint64_t, Sender> present;
+  for (const dds_instance_handle_t handle : handles) {
+    if (const auto known = senders_.find(handle); known != senders_.end()) {
+      present.insert(*known);
+    } else if (auto* const found = dds_get_matched_publication_data(entity_, handle)) {
+      std::ranges::copy(found->key.v, present[handle].begin());
+      dds_builtintopic_free_endpoint(found);
+    }
+  }
+  senders_ = std::move(present);
+}
+
+std::vector<Sender> Reader::senders() {
+  look_around();
+  std::vector<Sender> all;
+  for (const auto& [handle, sender] : senders_) all.push_back(sender);
+  return all;
+}
+
+void Reader::take(std::size_t most, const std::function<void(const void*, const Sender*)>& see) {
+  // Who has gone since the last time may have left something.
+  const std::map<std::uint64_t, Sender> before = senders_;
+  look_around();
+  senders_.insert(before.begin(), before.end());
   constexpr std::size_t kPiece = 16;
   while (most > 0) {
     std::array<void*, kPiece> samples{};
@@ -120,7 +155,9 @@ void Reader::take(std::size_t most, const std::function<void(const void*)>& see)
         dds_take(entity_, samples.data(), infos.data(), room, static_cast<std::uint32_t>(room));
     if (found <= 0) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(found); ++i) {
-      if (infos[i].valid_data) see(samples[i]);
+      if (!infos[i].valid_data) continue;
+      const auto sender = senders_.find(infos[i].publication_handle);
+      see(samples[i], sender == senders_.end() ? nullptr : &sender->second);
     }
     dds_return_loan(entity_, samples.data(), found);
     most -= static_cast<std::size_t>(found);
@@ -138,6 +175,13 @@ base::Result<std::shared_ptr<Participant>> Participant::open(const Network& netw
   if (domain < 0) {
     return base::Error{"DDS cannot begin on the interface '" + network.interface +
                        "': " + why(domain) + " (ip link shows the interfaces)"};
+  }
+  if (is_loopback(network.interface)) {
+    // Before there is a participant: what came so far was for nobody.
+    if (std::string wrong = internal::keep_on_loopback(network.domain); !wrong.empty()) {
+      dds_delete(domain);
+      return base::Error{wrong};
+    }
   }
   const QosPtr qos(dds_create_qos());
   // By this ROS 2 takes a participant for one of its own.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -55,6 +57,10 @@ class Writer {
   std::int32_t entity_;
 };
 
+/// Who writes samples, on the whole network and for all time (its GUID): a program that begins anew
+/// is another one.
+using Sender = std::array<std::uint8_t, 16>;
+
 /// Takes samples from a topic.
 /// @thread as Writer
 class Reader {
@@ -66,11 +72,18 @@ class Reader {
   ~Reader();
 
   /// Shows `see` each sample that has come, oldest first, `most` at most.
-  void take(std::size_t most, const std::function<void(const void* sample)>& see);
+  /// @param see  `sender` is nullptr if it was not there long enough to be known
+  void take(std::size_t most,
+            const std::function<void(const void* sample, const Sender* sender)>& see);
+  /// Who is there now, whether it has sent anything or not.
+  std::vector<Sender> senders();
 
  private:
+  void look_around();
+
   std::shared_ptr<Participant> participant_;
   std::int32_t entity_;
+  std::map<std::uint64_t, Sender> senders_;  ///< by the handle that DDS has of it here
 };
 
 /// One participant of DDS, which is one node of ROS 2: it is announced with all that it reads and

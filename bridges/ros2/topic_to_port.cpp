@@ -10,7 +10,6 @@
 #include "armature/component/ports/input_port.hpp"
 #include "armature/component/ports/output_port.hpp"
 #include "armature/types/dds_idl.hpp"
-#include "bridges/ros2/internal/effort_check.hpp"
 #include "bridges/ros2/internal/find_port.hpp"
 
 namespace armature::ros2 {
@@ -66,12 +65,22 @@ std::string objection_to_value(const types::Type& root, const void* data) {
 
 void TopicToPort::on_check(component::Check& check) const {
   Subscriber::on_check(check);
-  const auto* const input = internal::find_input(check.components(), port_);
+  const auto* const input = written_input(check);
   if (input == nullptr) return;  // which is objected to
   if (!check.writers_of(*input).empty()) {
     check.error("'" + port_.get() + "' has a writer already", "name an input that nothing writes");
   }
-  internal::check_efforts_behind(*input, check);
+  for (const component::Component* each : check.components()) {
+    if (each == this) break;  // the one that comes later objects
+    const auto* const other = dynamic_cast<const TopicToPort*>(each);
+    if (other == nullptr || other->port_.get() != port_.get()) continue;
+    check.error("'" + port_.get() + "' is written by '" + each->name() + "' already",
+                "remove one of them: an input has one who commands it");
+  }
+}
+
+const component::InputPortBase* TopicToPort::written_input(const component::Check& check) const {
+  return internal::find_input(check.components(), port_);
 }
 
 std::vector<TopicToPort::Objection> TopicToPort::objections(const Components& components) const {

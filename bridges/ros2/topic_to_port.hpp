@@ -13,15 +13,14 @@ namespace armature::ros2 {
 /// whole is a message with a number that is not finite, a value that its enumeration does not have,
 /// or a vector of another size than the input takes. `armature models --dds` prints its type.
 ///
-/// What is older than `max_age` stops the input's component, unless that declares an age itself. An
-/// input that is an effort, or that leads to one without a component that takes commands, is
-/// refused.
+/// What is older than `max_age` stops the input's component, unless that declares an age itself.
 class TopicToPort final : public Subscriber {
  public:
   using Subscriber::Subscriber;
 
  private:
   void on_check(component::Check& check) const override;
+  const component::InputPortBase* written_input(const component::Check& check) const override;
   std::vector<Objection> objections(const Components& components) const override;
   std::string open(const component::Surroundings& surroundings) override;
   void close() override;

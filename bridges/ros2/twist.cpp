@@ -15,11 +15,6 @@ bool is_within(const geometry_msgs_msg_dds__Vector3_& vector, double limit) {
 
 }  // namespace
 
-void Twist::on_check(component::Check& check) const {
-  Subscriber::on_check(check);
-  expect_arming(check);
-}
-
 std::string Twist::open(const component::Surroundings& /*surroundings*/) {
   reader_ = reader(topic_, geometry_msgs_msg_dds__Twist__desc, kCommands);
   return {};

@@ -16,7 +16,7 @@ class Twist final : public Subscriber {
   using Subscriber::Subscriber;
 
  private:
-  void on_check(component::Check& check) const override;
+  bool moves_robots() const override { return true; }
   std::string open(const component::Surroundings& surroundings) override;
   void close() override { reader_.reset(); }
   void work() override;

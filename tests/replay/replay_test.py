@@ -58,6 +58,33 @@ Rover:put(Rover.Place.x, Rover.Place.y, Rover.Place.heading + 0.3)
 wait(1)
 stop()
 """
+TEACH = """
+wait(1.5)
+assert(wait(Arming:arm()))
+assert(wait(Generator:moveTo(array(0.1, -1.9, 0.1, 3.0, 0.0, 0.1, 0.0), 1)))
+assert(wait(Teacher:keepPose("here")))
+assert(wait(Teacher:goTo("here", 0)))
+stop()
+"""
+GO_THERE = """
+wait(1.5)
+assert(wait(Arming:arm()))
+wait(0.2)
+assert(wait(Teacher:goTo("here", 0)))
+stop()
+"""
+# The encoder of a wheel falls silent while the rover turns.
+ROVER_SILENT = """
+wait(0.1)
+assert(wait(Arming:arm()))
+wait(0.5)
+Rover:put(Rover.Place.x, Rover.Place.y, Rover.Place.heading + 0.3)
+wait(0.3)
+Rover.SilentEncoder = 1
+wait(1)
+stop()
+"""
+
 
 def armature(*arguments, **options):
     return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120,
@@ -67,6 +94,30 @@ def armature(*arguments, **options):
 def load(path):
     with open(path, encoding="utf-8") as file:
         return json.load(file)
+
+
+def store(path, content):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(content, file)
+
+
+def change_acts(folder, function):
+    """Of the acts of a run; the function changes their list."""
+    with open(f"{folder}/acts.jsonl", encoding="utf-8") as file:
+        acts = [json.loads(line) for line in file]
+    function(acts)
+    with open(f"{folder}/acts.jsonl", "w", encoding="utf-8") as file:
+        file.writelines(json.dumps(act) + "\n" for act in acts)
+
+
+def files_in(folder):
+    """Paths and contents of all files."""
+    found = {}
+    for place, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(place, name), "rb") as file:
+                found[os.path.join(place, name)] = file.read()
+    return found
 
 
 def change(path, what, by):
@@ -143,13 +194,13 @@ class Recorded(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.root)
 
-    def run_of(self, deployment, script, name, *arguments, code=0):
+    def run_of(self, deployment, script, name, *arguments, code=0, **options):
         folder = f"{self.root}/{name}"
         if not os.path.exists(folder):
             with open(f"{self.root}/{name}.lua", "w", encoding="utf-8") as file:
                 file.write(script)
             done = armature("run", f"{ROBOTS}/{deployment}", "-L", LIBRARIES, "--sim", "--script",
-                            f"{self.root}/{name}.lua", "--out", folder, *arguments)
+                            f"{self.root}/{name}.lua", "--out", folder, *arguments, **options)
             self.assertEqual(done.returncode, code, done.stderr)
         copy = f"{self.root}/{name}_of_{self.id().split('.')[-1]}"
         shutil.copytree(folder, copy)
@@ -289,12 +340,137 @@ class Janus(Recorded):
         self.assertIn("has no experiment.json", self.replay(empty, code=1).stderr)
         folder = self.recorded()
         self.assertIn("has files that no replay has made",
-                      self.replay(folder, "-o", folder, code=1).stderr)
+                      self.replay(folder, "-o", os.path.dirname(PROGRAM), code=1).stderr)
         os.remove(f"{folder}/janus.mcap")
         self.assertIn("has no recording", self.replay(folder, code=1).stderr)
 
 
+    def test_an_act_that_was_refused_and_is_done_is_a_difference(self):
+        folder = self.recorded()
+        change_acts(folder, lambda acts: acts.insert(3, {"refused": 3, "why": "it was late"}))
+        told = self.replay(folder, code=5).stdout
+        self.assertIn("was set of 'PID1.Kp': it is refused: it was late", told)
+        self.assertIn("is  set of 'PID1.Kp': it is done", told)
+        told = self.replay(folder, "--set", "PID2.Kp=200").stderr
+        self.assertIn("set of 'PID1.Kp': it is done; when it was recorded, it is refused", told)
+
+    def test_an_act_that_was_done_and_is_refused_is_a_difference(self):
+        folder = self.recorded()
+        change_acts(folder, lambda acts: acts[2].update(item="Gain"))
+        self.assertIn("is  set of 'PID1.Gain': it is refused", self.replay(folder, code=5).stdout)
+
+    def test_an_act_without_its_values_is_refused(self):
+        folder = self.recorded()
+
+        def of_a_command(acts):
+            acts[2] = {**acts[2], "component": "Arming", "item": "stop", "values": []}
+
+        change_acts(folder, of_a_command)
+        self.assertIn("has no value to set", self.replay(folder, code=5).stdout)
+
+    def test_a_refused_act_is_refused_again(self):
+        script = JANUS.replace("PID1.Kp = 410", "pcall(function() PID1.Kp = \"much\" end)\n"
+                               "pcall(function() Generator:moveTo(array(0.5), 1) end)")
+        folder = self.run_of("janus/demo/pid.yaml", script, "refused")
+        self.expect_equal(folder, 1000)
+
+    def test_an_act_whose_turn_does_not_come_is_told_and_a_what_if_goes_by_time(self):
+        folder = self.recorded()
+        change_acts(folder, lambda acts: acts[2].update(attended=True, turn=10**9))
+        self.assertIn("does not come by the turn", self.replay(folder, code=5).stdout)
+        told = self.replay(folder, "--set", "PID2.Kp=200").stderr
+        self.assertNotIn("does not come by the turn", told)
+        _, now = (load(f"{folder}/what-if/report.json")["controllers"][name]["joints"][0]["iae"]
+                  for name in ("was", "what-if"))
+        change_acts(folder, lambda acts: acts.pop(2))
+        self.replay(folder, "--set", "PID2.Kp=200")
+        without = load(f"{folder}/what-if/report.json")["controllers"]["what-if"]["joints"][0]["iae"]
+        self.assertNotEqual(now, without)
+
+    def test_it_ends_whatever_the_acts_say(self):
+        folder = self.recorded()
+        change_acts(folder, lambda acts: acts[-1].update(time_ns=9 * 10**18))
+        told = self.replay(folder, code=5)
+        self.assertIn("later than a minute after that is left out", told.stderr)
+
+    def test_another_end_is_a_difference(self):
+        folder = self.recorded()
+        summary = load(f"{folder}/run.json")
+        store(f"{folder}/run.json", {**summary, "faults": 2})
+        told = self.replay(folder, code=5).stdout
+        self.assertIn("was faults: 2", told)
+        self.assertIn("is  faults: 0", told)
+
+    def test_a_summary_of_another_kind_is_no_crash(self):
+        folder = self.recorded()
+        summary = load(f"{folder}/run.json")
+        summary["counters"]["Reporter.dropped"] = {"value": "many"}
+        store(f"{folder}/run.json", summary)
+        self.assertRegex(self.replay(folder).stdout, EQUAL)
+
+    def test_a_place_above_the_run_is_refused(self):
+        place = tempfile.mkdtemp(dir=self.root)
+        store(f"{place}/replay.json", {})
+        shutil.move(self.recorded(), f"{place}/run")
+        os.symlink(place, f"{self.root}/link_to_place")
+        before = files_in(place)
+        for out in (place, f"{self.root}/link_to_place", f"{place}/run"):
+            told = self.replay(f"{place}/run", "-o", out, code=1).stderr
+            self.assertIn("has the recorded run in it", told)
+        self.assertEqual(files_in(place), before)
+
+    def test_code_from_the_folder_of_the_run_is_not_run(self):
+        folder = self.recorded()
+        evil = f"{folder}/evil"
+        os.mkdir(evil)
+        with open(f"{evil}/libevil.so", "w", encoding="utf-8") as file:
+            file.write("no library")
+        experiment = load(f"{folder}/experiment.json")
+        deployment = experiment["deployment"]
+        experiment["texts"][deployment] += "\nlibraries: [evil]\n"
+        experiment.update(folder=folder, library_folders=["evil"])
+        store(f"{folder}/experiment.json", experiment)
+        told = self.replay(folder, code=1).stderr
+        self.assertIn("name its folder with -L; the run had -L evil", told)
+        self.assertIn("cannot load the library", self.replay(folder, "-L", evil, code=1).stderr)
+        experiment["texts"]["evil/run.yaml"] = experiment["texts"].pop(deployment)
+        store(f"{folder}/experiment.json", {**experiment, "deployment": "evil/run.yaml"})
+        told = self.replay(folder, code=1).stderr
+        self.assertIn("would be 'evil/libevil.so', which the folder of the run alone says", told)
+
+    def test_a_folder_that_is_gone_is_an_error(self):
+        folder = self.recorded()
+        experiment = load(f"{folder}/experiment.json")
+        store(f"{folder}/experiment.json", {**experiment, "folder": "/nowhere/at/all"})
+        self.assertIn("where its relative paths begin", self.replay(folder, code=1).stderr)
+
+    def test_what_speaks_to_the_outside_is_refused(self):
+        folder = self.recorded()
+        if not any(name.startswith("libros2") for name in os.listdir(LIBRARIES)):
+            self.skipTest("the library ros2 is not built")
+        with open(f"{folder}/ros.yaml", "w", encoding="utf-8") as file:
+            file.write("libraries: [ros2]\ncomponents:\n  Ros: {model: RosNode, activity: "
+                       "{periodic: 50 ms, scheduler: other}}\n")
+        told = self.replay(folder, "--with", f"{folder}/ros.yaml", code=1).stderr
+        self.assertIn("'Ros' (RosNode) speaks to others outside of this process", told)
+
+
 class Wam(Recorded):
+    def test_a_replay_leaves_the_files_of_the_robot_alone(self):
+        home = tempfile.mkdtemp(dir=self.root)
+        taught = self.run_of("wam/demo/teach.yaml", TEACH, "taught_wam", cwd=home)
+        with open(f"{home}/poses.yaml", encoding="utf-8") as file:
+            self.assertIn("here", file.read())
+        gone = self.run_of("wam/demo/teach.yaml", GO_THERE, "gone_there", cwd=home)
+        with open(f"{home}/poses.yaml", "w", encoding="utf-8") as file:
+            file.write("what was taught since then")
+        before = files_in(home)
+        self.expect_equal(taught, 100)
+        self.assertEqual(files_in(home), before)
+        os.remove(f"{home}/poses.yaml")
+        self.expect_equal(gone, 100)
+        self.assertEqual(files_in(home), {})
+
     def test_its_estop_is_replayed_with_its_black_box(self):
         folder = self.run_of("wam/demo/npid.yaml", WAM_ESTOP, "wam", code=1)
         self.assertTrue(any(name.startswith("blackbox-") for name in os.listdir(folder)))
@@ -304,6 +480,14 @@ class Wam(Recorded):
 class Rover(Recorded):
     def test_is_equal_to_the_bit(self):
         self.expect_equal(self.run_of("rover/demo/p.yaml", ROVER, "rover"), 50)
+
+    def test_a_silent_encoder_is_replayed_with_its_black_box(self):
+        folder = self.run_of("rover/demo/p.yaml", ROVER_SILENT, "silent", code=1)
+        boxes = [name for name in os.listdir(folder) if name.startswith("blackbox-")]
+        self.assertTrue(boxes)
+        self.expect_equal(folder, 50)
+        mutate(f"{folder}/{boxes[0]}", "Chassis.Drive.SpeedLeft")
+        self.assertIn("Chassis.Drive, port SpeedLeft", self.replay(folder, code=5).stdout)
 
 
 class Shadow(unittest.TestCase):

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program with Fast DDS that commands a robot, ten times a second, until it is killed:
 //   ros2_commander DOMAIN joint_trajectory JOINTS TARGET TIME_S    all joints to one position
-//   ros2_commander DOMAIN cmd_vel FORWARD_M_S TURN_RAD_S
-//   ros2_commander DOMAIN listen TOPIC                             reads joint states, until
-//   SIGTERM; prints how many
+//   ros2_commander DOMAIN joint_trajectory JOINTS TARGET TIME_S stop   after two seconds it asks
+//   for a stop, with a stamp before that of the trajectory ros2_commander DOMAIN cmd_vel
+//   FORWARD_M_S TURN_RAD_S ros2_commander DOMAIN listen TOPIC                             reads
+//   joint states, until SIGTERM; prints how many
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -37,11 +38,23 @@ geometry_msgs::msg::dds_::Twist_ twist_of(double forward, double turn) {
 }
 
 template <typename Message>
-[[noreturn]] void send_for_ever(fast::DataWriter& writer, Message message) {
-  while (true) {
+void send(fast::DataWriter& writer, Message message, int times) {
+  for (int k = 0; k != times; ++k) {
     writer.write(&message);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
+}
+constexpr int kForEver = -1;
+
+void send_trajectory(fast::DataWriter& writer, trajectory_msgs::msg::dds_::JointTrajectory_ message,
+                     bool stops) {
+  if (!stops) return send(writer, std::move(message), kForEver);
+  message.header().stamp().sec(10);
+  while (!is_matched(writer)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  send(writer, message, 40);
+  trajectory_msgs::msg::dds_::JointTrajectory_ stop;
+  stop.header().stamp().sec(5);
+  send(writer, stop, kForEver);
 }
 
 volatile std::sig_atomic_t ended = 0;
@@ -67,10 +80,11 @@ int main(int argc, char** argv) {
   FastPeer peer(std::stoi(words[0]));
   if (words[1] == "listen") return listen(peer, words[2]);
   if (words[1] == "cmd_vel") {
-    send_for_ever(*peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel"),
-                  twist_of(std::stod(words[2]), std::stod(words.at(3))));
+    send(*peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel"),
+         twist_of(std::stod(words[2]), std::stod(words.at(3))), kForEver);
   }
-  send_for_ever(
+  send_trajectory(
       *peer.write_to<trajectory_msgs::msg::dds_::JointTrajectory_PubSubType>("rt/joint_trajectory"),
-      trajectory_to(std::stoi(words[2]), std::stod(words.at(3)), std::stod(words.at(4))));
+      trajectory_to(std::stoi(words[2]), std::stod(words.at(3)), std::stod(words.at(4))),
+      words.size() > 5);
 }

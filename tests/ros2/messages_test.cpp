@@ -44,7 +44,8 @@ class Messages : public testing::Test {
       typename PubSubType::type copy = message;
       from->write(&copy);
       for (int k = 0; k < 100; ++k) {
-        reader.value()->take(1, [&](const void* sample) { writer.value()->write(sample); });
+        reader.value()->take(
+            1, [&](const void* sample, const Sender*) { writer.value()->write(sample); });
         if (take(*to, found)) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }

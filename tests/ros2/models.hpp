@@ -62,6 +62,7 @@ class Operator final : public component::Component {
  private:
   void arm() { arm_.raise(); }
   void stop_robot() { stop_.raise(); }
+  void disarm_robot() { disarm_.raise(); }
 
   component::Event<> arm_{this, "Arm", "armed", component::occasional};
   component::Event<> disarm_{this, "Disarm", "disarmed", component::occasional};
@@ -70,6 +71,65 @@ class Operator final : public component::Component {
                                        component::in_own_thread};
   component::Operation<void()> do_stop_{this, "stop", component::serve<&Operator::stop_robot>,
                                         "stops", component::in_own_thread};
+  component::Operation<void()> do_disarm_{this, "disarm", component::serve<&Operator::disarm_robot>,
+                                          "disarms", component::in_own_thread};
+};
+
+/// Passes a number on. It takes commands, but no motion is one of them: it keeps no limits.
+class Relay final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void pass(double value) {
+    out_.write(value);
+    came_.raise();
+  }
+  component::Outcome accept() { return component::accepted(); }
+
+  component::InputPort<double> in_{
+      this, "In", "a number", "", component::on_data<&Relay::pass>, component::may_stay_open};
+  component::OutputPort<double> out_{this, "Out", "the same"};
+  component::Event<> came_{this, "Came", "a number"};
+  component::Command<> select_{this, "select", component::serve<&Relay::accept>, "selects it"};
+};
+
+/// A chassis: it brakes at the operator's stop, if it is told of it.
+class Base final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void follow(double speed) { volts_.write(speed); }
+  void brake() { volts_.write(0.0); }
+  component::Outcome drive() { return component::accepted(); }
+
+  component::InputPort<double> speed_{
+      this, "Speed", "wanted", "m/s", component::on_data<&Base::follow>, component::may_stay_open};
+  component::OutputPort<double> volts_{this, "Volts", "of its motor", "V"};
+  component::EventHandler<> stop_{this, "Stop", component::serve<&Base::brake>, "brakes",
+                                  component::optional};
+  component::Command<> drive_{this, "drive", component::serve<&Base::drive>, "drives"};
+};
+
+/// Stands for a joint: the operator alone has it home.
+class Axis final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void follow(double position) { volts_.write(position); }
+  component::Outcome begin() { return component::accepted(); }
+
+  component::InputPort<double> wanted_{this,
+                                       "Wanted",
+                                       "position",
+                                       "rad",
+                                       component::on_data<&Axis::follow>,
+                                       component::may_stay_open};
+  component::OutputPort<double> volts_{this, "Volts", "of its motor", "V"};
+  component::Command<> home_{this, "home", component::serve<&Axis::begin>, "homes",
+                             component::by_operator};
 };
 
 /// Makes a voltage of a number.
@@ -79,6 +139,7 @@ class Amplifier final : public component::Component {
 
  private:
   void amplify(double value) { out_.write(2.0 * value); }
+  void give() { out_.write(1.0); }
 
   component::InputPort<double> in_{this,
                                    "In",
@@ -86,6 +147,8 @@ class Amplifier final : public component::Component {
                                    "",
                                    component::on_data<&Amplifier::amplify>,
                                    component::may_stay_open};
+  component::EventHandler<> came_{this, "Came", component::serve<&Amplifier::give>, "gives 1 V",
+                                  component::optional};
   component::OutputPort<double> out_{this, "Out", "twice that", "V"};
 };
 

@@ -115,6 +115,48 @@ TEST(JointTrajectory, MovesTheArmAndACommanderThatDiesStopsItSmoothly) {
   moves_and_stops_smoothly(wam, "7", 0.8, 2.5, 5.0);
 }
 
+TEST(JointTrajectory, BrakesAtAStopOfTheCommanderWhateverItsStampAndAtThatOfTheOperator) {
+  testing::DeployedRobot janus(example("janus.yaml"));
+  ASSERT_EQ(janus.start(), "");
+  run_beside(janus, 100ms);
+  ASSERT_EQ(janus.arm(), CommandStage::kDone) << janus.reasons();
+  run_beside(janus, 600ms);
+  auto stops = commander({"joint_trajectory", "2", "1.2", "8", "stop"});
+  ASSERT_TRUE(runs_until(janus, [&] { return moves(janus); })) << janus.reasons();
+  run_beside(janus, 4s);
+  EXPECT_FALSE(moves(janus));
+  EXPECT_EQ(refused(janus), 0u) << janus.reasons();
+  EXPECT_LT(measured(janus), 1.0) << "it went on to the end";
+  stops.send(SIGKILL);
+
+  // At the operator's stop it brakes, and its commander, which goes on, is not heard any more.
+  auto goes_on = commander({"joint_trajectory", "2", "-0.4", "8"});
+  ASSERT_TRUE(runs_until(janus, [&] { return moves(janus); })) << janus.reasons();
+  run_beside(janus, 1s);
+  EXPECT_EQ(janus.call("Arming", "stop"), "");
+  run_beside(janus, 1s);
+  const double stopped_at = measured(janus);
+  run_beside(janus, 1s);
+  EXPECT_FALSE(moves(janus));
+  EXPECT_GT(refused(janus), 5u);
+  EXPECT_NEAR(measured(janus), stopped_at, 0.01) << "it goes on after the operator's stop";
+  goes_on.send(SIGKILL);
+}
+
+TEST(JointTrajectory, NeedsAGeneratorThatTheSameOperatorStops) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {LIBRARIES};
+  const auto unstopped =
+      deploy::parse_deployment("include: [" EXAMPLES
+                               "/13_ros2/janus.yaml]\ncomponents:\n  Generator: {override: true, "
+                               "model: nAxesGeneratorTaught, peers: []}\n",
+                               "test.yaml", options);
+  EXPECT_NE(unstopped.diagnostics.to_text().find("'JointTrajectory': what comes from ROS 2 leads "
+                                                 "to the effort"),
+            std::string::npos)
+      << unstopped.diagnostics.to_text();
+}
+
 TEST(CmdVel, DrivesTheRoverAndACommanderThatDiesStopsIt) {
   testing::DeployedRobot rover(example("rover.yaml"));
   ASSERT_EQ(rover.start(), "");

@@ -31,6 +31,9 @@ inline deploy::Deployment deployment(const std::string& components,
     registry.add<Numbers>("Numbers", "ports of a test");
     registry.add<Operator>("Operator", "arms and stops");
     registry.add<Amplifier>("Amplifier", "makes voltages");
+    registry.add<Relay>("Relay", "passes on");
+    registry.add<Base>("Base", "drives");
+    registry.add<Axis>("Axis", "homes");
     registry.add<Ticker>("Ticker", "counts");
     registry.add<Listener>("Listener", "listens");
   };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "armature/component/interface.hpp"
+#include "armature/component/stand_in.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -60,8 +61,7 @@ class ShadowCheck {
 
   /// Who writes to a full queue is told, and may do something about it.
   void expect_no_answer(const ConnectionPlan& connection) {
-    const bool queue =
-        connection.entry->policy.kind == component::ConnectionPolicy::Kind::kFifo;
+    const bool queue = connection.entry->policy.kind == component::ConnectionPolicy::Kind::kFifo;
     if (!queue || !leaves(connection.to, connection.from)) return;
     diagnostics_.error(connection.entry->where,
                        "the shadow " + name_of(connection.to) + " takes data of " +
@@ -88,12 +88,23 @@ class ShadowCheck {
 
   void check_events() {
     for (const SubscriptionPlan& told : plan_.subscriptions) {
+      expect_own_thread(told);
       if (!leaves(told.from, told.to)) continue;
       diagnostics_.error(blueprint_.components[told.to].where,
                          name_of(told.to) + " is told of the event '" + told.event->owner().name() +
                              "." + std::string(told.event->name()) + "', which is of a shadow",
                          hint(told.to));
     }
+  }
+
+  /// A handler in the thread of who drives would take its time, whatever thread the shadow has.
+  void expect_own_thread(const SubscriptionPlan& told) {
+    if (!told.handler->runs_in_raisers_thread() || !leaves(told.to, told.from)) return;
+    diagnostics_.error(blueprint_.components[told.to].where,
+                       "the shadow " + name_of(told.to) + " handles the event '" +
+                           told.event->owner().name() + "." + std::string(told.event->name()) +
+                           "' in the thread of " + name_of(told.from) + ", and takes its time",
+                       "a component of this model cannot be a shadow that is told of this event");
   }
 
   /// A shadow that computes for long holds up nobody.
@@ -143,6 +154,21 @@ class ShadowCheck {
                              " is a shadow, but keeps something from moving, and would "
                              "hold up the end of a run",
                          "a component of this model cannot be a shadow");
+    }
+    if (dynamic_cast<const component::StandIn*>(entry.component.get()) != nullptr) {
+      diagnostics_.error(entry.where,
+                         name_of(i) +
+                             " is a shadow, but stands for a component of another process, which "
+                             "gets its data and calls and may drive",
+                         "remove shadow, or remote");
+    }
+    if (!component::interface_of(*entry.component).observers.empty()) {
+      diagnostics_.error(entry.where,
+                         name_of(i) +
+                             " is a shadow, but reaches other components without a connection, "
+                             "which no check sees",
+                         "remove shadow: a recorder needs none, and what writes to others cannot "
+                         "be one");
     }
     for (const PeerEntry& peer : entry.peers) {
       if (!peer.superior) continue;

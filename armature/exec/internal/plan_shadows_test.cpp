@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a shadow must not be able to do is refused.
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/observing/observer.hpp"
+#include "armature/component/stand_in.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
 namespace armature::exec {
@@ -41,6 +45,41 @@ class Served final : public Component {
  private:
   void serve_call() {}
   component::Operation<void()> call_{this, "call", component::serve<&Served::serve_call>, "serves"};
+};
+
+/// Stands for a component of another process.
+class Ghost final : public component::StandIn {
+ public:
+  using StandIn::StandIn;
+  void pass_on(component::InputPortBase&, const void*) override {}
+  component::CallStatus call(component::OperationBase&, const void* const*, void*) override {
+    return {};
+  }
+  component::Outcome begin(component::CommandBase&, const void* const*) override {
+    return component::accepted();
+  }
+  void cancel(component::CommandBase&) override {}
+};
+
+/// Sees all components, and may write to them.
+class Watcher final : public Component, private component::Observer {
+ public:
+  explicit Watcher(std::string name) : Component(std::move(name)), Observer(this) {}
+
+ private:
+  std::vector<Objection> check_view(const std::vector<Component*>&) const override { return {}; }
+  void observe(const component::Surroundings&) override {}
+};
+
+/// Holds up whoever raises the event.
+class Interrupting final : public Component {
+ public:
+  using Component::Component;
+
+ private:
+  void ring_now() {}
+  component::EventHandler<> told_{this, "raised", component::serve<&Interrupting::ring_now>,
+                                  "another one's event", component::in_raisers_thread};
 };
 
 /// A driving controller between a source and a drive, and a shadow beside it.
@@ -145,6 +184,37 @@ TEST_F(Shadows, TakeNoTimeOfWhoIsNone) {
   blueprint.add<Controller>("Other", Activity::periodic(1ms));
   entry("Other").activity.thread = "shared";
   EXPECT_THAT(problems_of(blueprint), HasSubstr("would run in the thread 'shared' of 'Other'"));
+}
+
+TEST_F(Shadows, HandleNoEventInTheThreadOfWhoIsNone) {
+  blueprint.connect("Shadow.Out", "Comparison.In");
+  blueprint.add<Interrupting>("Told", Activity::periodic(1ms, 10));
+  entry("Told").shadow = true;
+  blueprint.add_peer("Told", "Shadow");
+  EXPECT_EQ(problems_of(blueprint), "") << "among shadows it is their own affair";
+  entry("Told").peers.clear();
+  blueprint.add_peer("Told", "Source");
+  EXPECT_THAT(problems_of(blueprint),
+              HasSubstr("the shadow 'Told' handles the event 'Source.raised' in the thread of"));
+}
+
+TEST_F(Shadows, StandForNobodyInAnotherProcess) {
+  blueprint.connect("Shadow.Out", "Comparison.In");
+  blueprint.add<Ghost>("Ghost", Activity::periodic(1ms, 10));
+  EXPECT_EQ(problems_of(blueprint), "");
+  entry("Ghost").shadow = true;
+  EXPECT_THAT(problems_of(blueprint),
+              HasSubstr("'Ghost' is a shadow, but stands for a component of another process"));
+}
+
+TEST_F(Shadows, ReachNobodyWithoutAConnection) {
+  blueprint.connect("Shadow.Out", "Comparison.In");
+  blueprint.add<Watcher>("Watcher", Activity::periodic(1ms, 10));
+  EXPECT_EQ(problems_of(blueprint), "");
+  entry("Watcher").shadow = true;
+  EXPECT_THAT(
+      problems_of(blueprint),
+      HasSubstr("'Watcher' is a shadow, but reaches other components without a connection"));
 }
 
 TEST_F(Shadows, HaveNoSuperiors) {

@@ -59,16 +59,33 @@ base::Diagnostics BeforeStop::run_commands(RunEnd end, const platform::StopSigna
   // What is under way would have what follows refused; whoever began it has gone.
   bool cut_short = cancel_all(stop);
   const bool faulted = end == RunEnd::kFaulted || end == RunEnd::kStoppedByReaction;
-  if (faulted || leave == Leave::kAfterMistake) return diagnostics;
   for (const CommandName& name : options_.before_stop) {
-    if (cut_short || !health_.in_good_order()) break;
     if (holds_nothing(name.component)) continue;
-    const std::string problem = run(name, stop);
-    cut_short = stop != nullptr && stop->received();
-    if (problem.empty()) continue;
-    diagnostics.error({}, "before the stop, " + dotted(name) + " " + problem);
+    if (leave == Leave::kAfterMistake) {
+      leave_out(name, "whoever commanded it made a mistake");
+    } else if (cut_short) {
+      leave_out(name, "a signal came");
+    } else if (faulted || !health_.in_good_order()) {
+      leave_out(name, "something has faulted or was stopped by a reaction");
+    } else {
+      cut_short = !do_it(name, stop, diagnostics);
+    }
   }
   return diagnostics;
+}
+
+void BeforeStop::leave_out(const CommandName& name, const char* why) {
+  outlets_.say("before the stop, " + dotted(name) + " is left out, since " + why);
+}
+
+/// @return whether no signal came meanwhile
+bool BeforeStop::do_it(const CommandName& name, const platform::StopSignal* stop,
+                       base::Diagnostics& diagnostics) {
+  const std::string problem = run(name, stop);
+  if (!problem.empty()) {
+    diagnostics.error({}, "before the stop, " + dotted(name) + " " + problem);
+  }
+  return stop == nullptr || !stop->received();
 }
 
 /// What is done now is done at the operator's word: no event begins anything beside it, and nobody

@@ -46,6 +46,9 @@ class BeforeStop {
   void begin_to_leave();
   bool cancel_all(const platform::StopSignal* stop);
   bool holds_nothing(std::string_view name) const;
+  void leave_out(const CommandName& name, const char* why);
+  bool do_it(const CommandName& name, const platform::StopSignal* stop,
+             base::Diagnostics& diagnostics);
   std::string run(const CommandName& name, const platform::StopSignal* stop);
   void say(const std::vector<Held>& held);
   RunEnd wait_until_let_go(std::vector<Held>& held, base::Time end,

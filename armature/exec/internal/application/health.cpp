@@ -2,11 +2,16 @@
 #include "armature/exec/internal/application/health.hpp"
 
 #include <utility>
+#include <vector>
 
 namespace armature::exec::internal {
 
-void Health::begin_anew() {
-  incidents_ = std::make_unique<Incidents>();
+void Health::begin_anew(const Blueprint& blueprint) {
+  std::vector<const component::Component*> shadows;
+  for (const ComponentEntry& entry : blueprint.components) {
+    if (entry.shadow) shadows.push_back(entry.component.get());
+  }
+  incidents_ = std::make_unique<Incidents>(std::move(shadows));
   leaving_ = false;
 }
 

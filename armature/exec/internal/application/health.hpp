@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "armature/exec/application_options.hpp"
+#include "armature/exec/blueprint.hpp"
 #include "armature/exec/internal/application/death_notice.hpp"
 #include "armature/exec/internal/application/engines.hpp"
 #include "armature/exec/internal/application/unreachable.hpp"
@@ -21,7 +22,7 @@ class Health {
       : death_notice_(death_notice), unreachable_(unreachable) {}
 
   /// Before a start: nothing has gone wrong yet.
-  void begin_anew();
+  void begin_anew(const Blueprint& blueprint);
   void begin_to_run() { running_ = true; }
   /// @return whether it ran
   bool end_of_run();
@@ -30,7 +31,7 @@ class Health {
   /// It runs on for what is to be done before the stop, also after a fault.
   void begin_to_leave() { leaving_ = true; }
 
-  /// Nothing has faulted nor been stopped by a reaction since it runs.
+  /// Nothing but shadows has faulted or been stopped by a reaction since it runs.
   bool in_good_order() const;
   /// A thread of the process has died.
   bool died() const { return died_; }

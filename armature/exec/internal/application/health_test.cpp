@@ -39,13 +39,25 @@ TEST_F(HealthTest, AReactionEndsItAsSuch) {
   EXPECT_EQ(health().end_by_fault(OnFault::kStopAll), RunEnd::kStoppedByReaction);
 }
 
+TEST_F(HealthTest, WhatBefallsAShadowIsNoIncidentButHasItsBlackBox) {
+  parts_.blueprint.components[0].shadow = true;
+  health().begin_anew(parts_.blueprint);
+  health().incidents().component_faulted(parts_.component(0));
+  health().incidents().component_stopped_itself(parts_.component(0));
+  EXPECT_TRUE(health().in_good_order());
+  EXPECT_EQ(health().incidents().faults(), 0u) << "of which the exit code tells";
+  EXPECT_EQ(health().incidents().first(), &parts_.component(0));
+  health().incidents().component_stopped_itself(parts_.component(1));
+  EXPECT_FALSE(health().in_good_order());
+}
+
 TEST_F(HealthTest, WhoLeavesRunsOnAfterAFaultUntilTheNextStart) {
   health().incidents().component_faulted(parts_.component(0));
   health().begin_to_leave();
   EXPECT_EQ(health().end_by_fault(OnFault::kStopAll), std::nullopt);
   EXPECT_TRUE(health().end_of_run());
   EXPECT_FALSE(health().end_of_run()) << "it does not run any more";
-  health().begin_anew();
+  health().begin_anew(parts_.blueprint);
   health().begin_to_run();
   EXPECT_TRUE(health().in_good_order());
   health().incidents().component_faulted(parts_.component(0));

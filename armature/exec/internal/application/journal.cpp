@@ -3,10 +3,13 @@
 
 #include <utility>
 
+#include "armature/exec/refusal.hpp"
+
 namespace armature::exec::internal {
 
 void Journal::begin_anew() {
   turns_ = 0;
+  told_ = 0;
   commands_ = 0;
 }
 
@@ -26,7 +29,12 @@ void Journal::note_cancelled() {
   }
 }
 
+void Journal::note_refused(std::uint64_t act, std::string why) {
+  if (act != 0) options_.acts(refusal(act, std::move(why)));
+}
+
 void Journal::tell(Act act) {
+  ++told_;
   act.time = clock_.now();
   act.turn = turns_;
   act.attended = attending_;

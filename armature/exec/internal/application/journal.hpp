@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "armature/exec/act.hpp"
 #include "armature/exec/application_options.hpp"
@@ -27,6 +28,10 @@ class Journal {
   /// @param act  without its time, turn and number
   /// @return its number, if it begins a command; 0 if nobody keeps the journal
   std::uint32_t note(Act act);
+  /// Of the act that was told last, by their order; 0 if nobody keeps the journal.
+  std::uint64_t last() const { return told_; }
+  /// The act was refused.
+  void note_refused(std::uint64_t act, std::string why);
   /// Commands are cancelled by their handles, which know no application: what was cancelled since
   /// the last look comes before whatever is done next.
   void note_cancelled();
@@ -38,6 +43,7 @@ class Journal {
   const Clock& clock_;
   TicketPool& tickets_;
   std::uint64_t turns_ = 0;
+  std::uint64_t told_ = 0;
   std::uint32_t commands_ = 0;
   bool attending_ = false;
 };

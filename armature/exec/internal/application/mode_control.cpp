@@ -19,12 +19,15 @@ bool has(const Plan& plan, std::size_t mode, Index component) {
   return (plan.modes_of[component] >> mode & 1) != 0;
 }
 
-std::vector<Modes::Succession> successions(const Plan& plan, std::size_t from, std::size_t to) {
+/// Who follows whom at inputs that drive: what a shadow reads in turns says nothing of what the
+/// entering output takes over.
+std::vector<Modes::Succession> successions(const Blueprint& blueprint, const Plan& plan,
+                                           std::size_t from, std::size_t to) {
   std::vector<Modes::Succession> all;
   for (const component::InputPortBase* const input : plan.in_turns) {
     Modes::Succession each{};
     for (const ConnectionPlan& connection : plan.connections) {
-      if (connection.input != input) continue;
+      if (connection.input != input || blueprint.components[connection.to].shadow) continue;
       if (has(plan, from, connection.from)) each.leaving = connection.output;
       if (has(plan, to, connection.from)) each.entering = connection.output;
     }
@@ -55,7 +58,7 @@ Modes::Mode ModeControl::mode_of(std::size_t number) const {
     mode.members.push_back(blueprint_.components[member].component.get());
   }
   for (std::size_t to = 0; to < plan_.modes.size(); ++to) {
-    Modes::Way way{{}, successions(plan_, number, to)};
+    Modes::Way way{{}, successions(blueprint_, plan_, number, to)};
     for (auto member = plan.members.rbegin(); member != plan.members.rend(); ++member) {
       if (has(plan_, to, *member)) continue;
       way.leaving.push_back(blueprint_.components[*member].component.get());
