@@ -26,8 +26,7 @@ base::Result<AbsolutePosition> AbsolutePosition::make(const Config& config) {
 
 AbsolutePosition::Reading AbsolutePosition::step(double of_sensor, double elapsed_s) {
   const bool first = !known_;
-  double turned = first ? of_sensor : of_sensor - last_;
-  if (config_.range > 0.0) turned = std::remainder(turned, config_.range);
+  const double turned = within_range(first ? of_sensor : of_sensor - last_);
   Reading reading;
   if (first) {
     position_ = config_.offset + config_.ratio * turned;
@@ -41,6 +40,15 @@ AbsolutePosition::Reading AbsolutePosition::step(double of_sensor, double elapse
   last_ = of_sensor;
   reading.position = position_;
   return reading;
+}
+
+void AbsolutePosition::shift(double by) {
+  position_ += by;
+  config_.offset = known_ ? position_ - config_.ratio * within_range(last_) : config_.offset + by;
+}
+
+double AbsolutePosition::within_range(double of_sensor) const {
+  return config_.range > 0.0 ? std::remainder(of_sensor, config_.range) : of_sensor;
 }
 
 }  // namespace armature::control

@@ -40,13 +40,11 @@ class AbsolutePosition {
   /// Where the joint is when the sensor says 0; within a range of it.
   double offset() const { return config_.offset; }
 
-  /// The joint was found to be elsewhere than the sensor says, by so much.
+  /// The joint was found to be elsewhere than the sensor says, by so much. Its next first reading
+  /// is of where it is then, however many ranges it has passed.
   /// @param by  finite
   /// @rt nonblocking, no allocation
-  void shift(double by) {
-    config_.offset += by;
-    position_ += by;
-  }
+  void shift(double by);
 
   /// @param of_sensor  finite
   /// @param elapsed_s  since the reading before, >= 0; of no account in the first one
@@ -60,6 +58,8 @@ class AbsolutePosition {
 
  private:
   explicit AbsolutePosition(const Config& config) : config_(config) {}
+
+  double within_range(double of_sensor) const;
 
   Config config_;
   bool known_ = false;

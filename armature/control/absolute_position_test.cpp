@@ -61,6 +61,20 @@ TEST(AbsolutePosition, ANewBeginningIsNoJump) {
   EXPECT_EQ(first.position, 100.0);
 }
 
+TEST(AbsolutePosition, WhatWasFoundBeyondItsRangeIsTheSameAfterAStart) {
+  auto position = made({.ratio = 0.5, .offset = 0.1, .range = 2.0, .max_velocity = 10.0});
+  position.step(0.9, 0.0);
+  position.step(-0.8, 0.1);  // 1.2 of its axis
+  ASSERT_NEAR(position.position(), 0.7, 1e-12);
+  position.shift(0.2);
+  EXPECT_NEAR(position.position(), 0.9, 1e-12);
+  EXPECT_NEAR(position.offset(), 0.9 + 0.4, 1e-12);
+  EXPECT_NEAR(position.at(1.0), -0.6, 1e-12);
+  auto again =
+      made({.ratio = 0.5, .offset = position.offset(), .range = 2.0, .max_velocity = 10.0});
+  EXPECT_NEAR(again.step(-0.8, 0.0).position, 0.9, 1e-12);
+}
+
 TEST(AbsolutePosition, ADriveIsToldInWhatItsSensorSays) {
   auto position = made({.ratio = -0.01, .offset = 1.0, .range = 6.0, .max_velocity = 1.0});
   position.step(2.0, 0.0);  // 0.98

@@ -92,8 +92,12 @@ base::Result<Experiment> load_experiment(const std::string& folder) {
   }
   const auto text = platform::read_file(path);
   if (!text) return base::Error{text.error()};
+  return parse_experiment(text.value(), path);
+}
+
+base::Result<Experiment> parse_experiment(std::string_view text, const std::string& path) {
   try {
-    return experiment_in(Json::parse(text.value()));
+    return experiment_in(Json::parse(text));
   } catch (const Json::exception& problem) {
     return base::Error{"'" + path + "' is not what armature run leaves: " + problem.what()};
   }

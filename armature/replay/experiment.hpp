@@ -50,4 +50,8 @@ base::Result<void> write_experiment(const std::string& folder, const Experiment&
 /// The error says what the folder of a run has, and what was found.
 base::Result<Experiment> load_experiment(const std::string& folder);
 
+/// As `load_experiment`, of the text of its file.
+/// @param path  for errors
+base::Result<Experiment> parse_experiment(std::string_view text, const std::string& path);
+
 }  // namespace armature::replay

@@ -6,11 +6,13 @@
 
 #include "armature/platform/clock.hpp"
 #include "armature/rt/guard.hpp"
+#include "bridges/ros2/internal/dds_log.hpp"
 #include "bridges/ros2/internal/own_thread.hpp"
 
 namespace armature::ros2 {
 
 constexpr base::Duration kClocksAreSet = std::chrono::seconds(1);
+constexpr base::Duration kDdsIsTold = std::chrono::seconds(10);
 
 void RosNode::on_check(component::Check& check) const {
   if (is_loopback(interface_.get())) return;
@@ -59,6 +61,15 @@ component::Outcome RosNode::on_start() {
 
 void RosNode::on_update() {
   if (time() - clocks_set_at_ >= kClocksAreSet) set_clocks();
+  if (time() - told_at_ >= kDdsIsTold) tell_of_dds();
+}
+
+/// Once in a while, however much it is.
+void RosNode::tell_of_dds() {
+  told_at_ = time();
+  const rt::PermitScope allocates;
+  const internal::DdsLog log = internal::take_dds_log();
+  if (log.lines > 0) log_warning("DDS had {} complaints, the last: {}", log.lines, log.last);
 }
 
 /// The wall clock is adjusted while an application runs.

@@ -48,6 +48,7 @@ class RosNode final : public component::Component, private component::Observer {
 
   Network network() const;
   void set_clocks();
+  void tell_of_dds();
 
   component::Property<std::string> node_{this, "node", "armature", "its name in ROS 2"};
   component::Property<std::string> namespace_{
@@ -68,6 +69,7 @@ class RosNode final : public component::Component, private component::Observer {
   std::string refused_;
   std::atomic<std::int64_t> to_wall_clock_ns_{0};
   base::Time clocks_set_at_{};
+  base::Time told_at_{};
 };
 
 }  // namespace armature::ros2

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "bridges/ros2/internal/dds.hpp"
+#include "bridges/ros2/internal/dds_log.hpp"
 #include "bridges/ros2/internal/loopback_sockets.hpp"
 
 namespace armature::ros2 {
@@ -16,6 +17,8 @@ using internal::QosPtr;
 
 /// How many participants of this machine are asked where no multicast asks them.
 constexpr int kMostOnOneMachine = 32;
+/// Of a message in either direction; a reader keeps some hundred.
+constexpr const char* kLargestSample = "4 MB";
 
 bool is_word(std::string_view text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) == 0 &&
@@ -72,7 +75,8 @@ std::string configuration_of(const Network& network) {
   text += "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
           std::to_string(kMostOnOneMachine) + "</MaxAutoParticipantIndex><Peers>";
   for (const std::string& peer : peers) text += "<Peer address=\"" + peer + "\"/>";
-  text += "</Peers></Discovery><Threads>";
+  text += std::string("</Peers></Discovery><Internal><MaxSampleSize>") + kLargestSample +
+          "</MaxSampleSize></Internal><Threads>";
   for (const char* name : {"recv", "tev", "gc", "lease", "dq.builtins", "dq.user"}) {
     text += std::string("<Thread name=\"") + name + "\"><StackSize>256 kB</StackSize></Thread>";
   }
@@ -166,6 +170,7 @@ void Reader::take(std::size_t most, const std::function<void(const void*, const 
 
 base::Result<std::shared_ptr<Participant>> Participant::open(const Network& network) {
   if (std::string wrong = wrong_with(network); !wrong.empty()) return base::Error{wrong};
+  internal::count_dds_log();
   const auto id = static_cast<dds_domainid_t>(network.domain);
   const dds_entity_t domain = dds_create_domain(id, configuration_of(network).c_str());
   if (domain == DDS_RETCODE_PRECONDITION_NOT_MET) {
@@ -174,7 +179,8 @@ base::Result<std::shared_ptr<Participant>> Participant::open(const Network& netw
   }
   if (domain < 0) {
     return base::Error{"DDS cannot begin on the interface '" + network.interface +
-                       "': " + why(domain) + " (ip link shows the interfaces)"};
+                       "': " + why(domain) + ", " + internal::take_dds_log().last +
+                       " (ip link shows the interfaces)"};
   }
   if (is_loopback(network.interface)) {
     // Before there is a participant: what came so far was for nobody.

@@ -12,6 +12,13 @@ namespace armature::cia402 {
 enum class DriveMode : std::uint8_t { kBus, kTorque, kVelocity, kPosition };
 ARMATURE_ENUM(DriveMode, kBus, kTorque, kVelocity, kPosition);
 
+/// What a drive's encoder tells when the drive gets power.
+enum class DriveEncoder : std::uint8_t {
+  kAbsolute,  ///< where it is
+  kCounting,  ///< anything: it counts from there
+};
+ARMATURE_ENUM(DriveEncoder, kAbsolute, kCounting);
+
 /// One drive by CiA 402: the hardware of a joint. Its peer is the host of the bus that the drive is
 /// on. Its mode, its own or that of the bus, has to be that of the input which is connected.
 ///
@@ -43,6 +50,9 @@ class Cia402Drive final : public controllers::JointHardware {
   /// Puts what it says of itself in place of what the bus says of all.
   void refine(DrivePlan& plan) const;
   bool tells_of_shaft() const override { return true; }
+  Sensor sensor() const override {
+    return encoder_ == DriveEncoder::kCounting ? Sensor::kCounting : Sensor::kAbsolute;
+  }
 
  private:
   void on_check(component::Check& check) const override;
@@ -80,6 +90,9 @@ class Cia402Drive final : public controllers::JointHardware {
   component::Property<DriveMode> mode_{
       this, "mode", DriveMode::kBus,
       "torque (CST), velocity (CSV), position (CSP), or as its bus says of all drives"};
+  component::Property<DriveEncoder> encoder_{
+      this, "encoder", DriveEncoder::kAbsolute,
+      "absolute, or counting: its position begins anywhere when it gets power"};
   component::Property<int> vendor_{this, "vendor", 0,
                                    "that the drive says it is of (0x1018:01); 0: as its bus says"};
   component::Property<int> product_{this, "product", 0, "likewise (0x1018:02)"};

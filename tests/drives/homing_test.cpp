@@ -236,6 +236,18 @@ TEST_P(Homing, ADriveThatHeardNoSyncIsPreparedAgainAtTheOperatorsWord) {
   EXPECT_EQ(drive(1).power(), PowerState::kSwitchOnDisabled);
 }
 
+TEST_P(Homing, ThatWasStoppedIsNotArmedBeforeItHasHomedOrTheOperatorHasLooked) {
+  start({"Joint1.HomingRequired=false"});
+  begin_homing();
+  ASSERT_TRUE(application().call("Arming", "disarm", {}));
+  run_for(1s);
+  EXPECT_NE(arm(), CommandStage::kDone);
+  EXPECT_THAT(reason_, HasSubstr("it has begun to home, and has not found home"));
+  ASSERT_EQ(run("Joint1", "home"), CommandStage::kDone) << reason_;
+  run_for(500ms);
+  EXPECT_EQ(arm(), CommandStage::kDone) << reason_;
+}
+
 TEST_P(Homing, ATimeThatIsOverEndsIt) {
   start({"Joint1.HomingTime=3 s"});
   begin_homing();
@@ -291,6 +303,16 @@ TEST(HomingCheck, AMethodThatCia402DoesNotHaveIsRefused) {
 TEST(HomingCheck, ADriveThatWouldMoveOnWithoutItsHostIsRefused) {
   EXPECT_THAT(load("position.yaml", {"Bus.host_heartbeat=0"}).diagnostics.to_text(),
               HasSubstr("homing_method is given, and host_heartbeat of 'Bus' is 0"));
+}
+
+TEST(HomingCheck, AnEncoderThatBeginsAnywhereIsSaidToDoSo) {
+  const std::vector<std::string> here{"Drive1.homing_method=0", "Joint1.HomingMethod=here",
+                                      "Joint1.HomePosition=0.5", "Joint1.HomingRequired=false"};
+  EXPECT_EQ(load("position.yaml", here).diagnostics.to_text(), "");
+  std::vector<std::string> counting = here;
+  counting.emplace_back("Drive1.encoder=counting");
+  EXPECT_THAT(load("position.yaml", counting).diagnostics.to_text(),
+              HasSubstr("'Drive1' counts from where it was switched on"));
 }
 
 TEST(HomingCheck, ADriveThatIsNotAskedForItsModeIsRefused) {

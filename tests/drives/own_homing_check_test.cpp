@@ -43,6 +43,20 @@ TEST(HomingHere, IsWhatTheOperatorSaysAndMovesNothing) {
   EXPECT_FALSE(robot->application().begin("Joint1", "home", {})) << "it is armed";
 }
 
+TEST(HomingHere, ACancelledCommandSaysNothing) {
+  auto robot = at_here("torque", "CountingDrive");
+  ASSERT_EQ(robot->start(), "");
+  robot->run_for(100ms);
+  auto home = robot->application().begin("Joint1", "home", {});
+  ASSERT_TRUE(home) << home.error();
+  home.value().cancel();
+  robot->run_for(100ms);
+  EXPECT_EQ(home.value().stage(), CommandStage::kCancelled);
+  EXPECT_FALSE(robot->value<bool>("Joint1", "homed"));
+  EXPECT_DOUBLE_EQ(robot->at(1), 0.0);
+  EXPECT_TRUE(robot->value<bool>("Drive1", "position_exact")) << "nothing was begun";
+}
+
 TEST(HomingHere, PrintsTheLineThatKeepsItForAnAbsoluteSensor) {
   deploy::DeploymentOptions options;
   options.library_folders = {ROBOT_LIBRARY, EXAMPLE_LIBRARY};
@@ -58,6 +72,26 @@ TEST(HomingHere, PrintsTheLineThatKeepsItForAnAbsoluteSensor) {
   ASSERT_EQ(robot.move_to({0.8, 0.0}), CommandStage::kDone);
   robot.run_for(500ms);
   EXPECT_NEAR(robot.at(1), 0.8, 0.01);
+}
+
+// --- the most that it is driven with ---------------------------------------------------------
+
+/// Which is less than its weight here.
+TEST(HomingEffort, BoundsADriveThatFollowsWhateverItLooksFor) {
+  for (const char* way : {"velocity", "position"}) {
+    for (const char* method : {"index", "switch", "switch_index", "hard_stop"}) {
+      SCOPED_TRACE(std::string(way) + " " + method);
+      std::vector<std::string> settings = settings_of(way, method);
+      settings.emplace_back("Joint1.HomePosition=-1.1 rad");
+      settings.emplace_back("Joint1.HomingEffort=1 Nm");
+      DeployedRobot robot(load_arm(way, settings));
+      ASSERT_EQ(robot.start(), "");
+      robot.run_for(100ms);
+      const component::CommandHandle home = robot.run("Joint1", "home");
+      EXPECT_EQ(home.stage(), CommandStage::kFailed);
+      EXPECT_THAT(std::string(home.reason()), HasSubstr("when it was let go"));
+    }
+  }
 }
 
 // --- what the check refuses ------------------------------------------------------------------
@@ -97,6 +131,10 @@ TEST(HomingCheck, RefusesNumbersThatCannotBe) {
       {"HomingVelocity=0", "HomingVelocity is 0, expected up to 1, half of MaxVelocity"},
       {"HomingVelocity=-1.5", "HomingVelocity is -1.5"},
       {"HomingTravel=0.04", "HomingTravel is 0.04, expected more than 0.04"},
+      {"HomingTravel=5", "HomingTravel is 5, expected up to 4.71"},
+      {"HomingTime=6 s", "HomingTime is 6 s, expected more than 6.5 s"},
+      {"Sampler=false", "Sampler is false: nobody would brake the joint"},
+      {"HomingBackOff=0.1", "HomingBackOff is given, and HomingMethod is 'switch'"},
       {"HomingEffort=30", "HomingEffort is 30, expected more than 0 and up to MaxTorque 20"},
       {"HomingEffort=1", "the joint weighs up to 2 Nm"},
       {"HomingStiffness=0", "HomingStiffness is 0"},
@@ -110,6 +148,15 @@ TEST(HomingCheck, RefusesNumbersThatCannotBe) {
   }
 }
 
+TEST(HomingCheck, WarnsOfOneThatArmsWhereNobodyKnows) {
+  const deploy::Deployment loaded =
+      load_arm("torque", {"Joint1.HomingMethod=here", "Joint1.HomePosition=0.5 rad"});
+  EXPECT_TRUE(loaded.ok()) << loaded.diagnostics.to_text();
+  EXPECT_THAT(loaded.diagnostics.to_text(),
+              HasSubstr("HomingRequired is not set, and 'Drive1' counts from where it was switched "
+                        "on: it can be armed at a position that nobody knows"));
+}
+
 TEST(HomingCheck, RefusesContradictions) {
   EXPECT_THAT(refusal("torque", {"Joint1.HomingMethod=drive"}),
               HasSubstr("is given, and HomingMethod is 'drive'"));
@@ -117,6 +164,9 @@ TEST(HomingCheck, RefusesContradictions) {
               HasSubstr("is given, and HomingMethod is 'here': nothing moves"));
   EXPECT_THAT(refusal("velocity", {"Joint1.HomingEffort=0"}, "hard_stop"),
               HasSubstr("expected what its drive may push with"));
+  EXPECT_THAT(refusal("velocity", {"Joint1.HomingStiffness=300"}),
+              HasSubstr("HomingStiffness is given, and its drive follows by its own gains"));
+  EXPECT_THAT(refusal("position", {"Joint1.HomingDamping=3"}), HasSubstr("HomingDamping is given"));
   EXPECT_THAT(refusal("torque", {"Joint1.HomingBackOff=0.01"}, "hard_stop"),
               HasSubstr("HomingBackOff is 0.01, expected more than 0.02"));
 }

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/properties/keeping.hpp"
 #include "armature/testing/deployed_robot.hpp"
 #include "tests/drives/own_homing_arm.hpp"
 
@@ -257,6 +258,17 @@ TEST_P(OwnHoming, AnEmergencyStopEndsItAtOnce) {
   expect_rest_unhomed();
 }
 
+TEST_P(OwnHoming, AStopOfAllMotionEndsItAtOnce) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  const double there = angle();
+  ASSERT_EQ(robot_->call("Arming", "stop"), "");
+  run_for(20ms);
+  EXPECT_EQ(home_->stage(), CommandStage::kFailed);
+  EXPECT_NEAR(angle(), there, 0.005);
+  expect_rest_unhomed();
+}
+
 TEST_P(OwnHoming, ArmingInTheMiddleOfItEndsIt) {
   start("switch", "-1.2 rad");
   begin_and_move();
@@ -274,7 +286,7 @@ TEST_P(OwnHoming, ACancelledCommandEndsIt) {
 }
 
 TEST_P(OwnHoming, ATimeThatIsOverEndsIt) {
-  start("switch", "-1.2 rad", {"Joint1.HomingTime=2 s"});
+  start("switch", "-1.2 rad", {"Joint1.HomingTime=2 s", "Joint1.HomingTravel=0.39 rad"});
   EXPECT_EQ(home(), CommandStage::kFailed);
   EXPECT_THAT(reason(), HasSubstr("has not found home within 2 s (HomingTime)"));
   expect_rest_unhomed();
@@ -315,6 +327,52 @@ TEST_P(OwnHoming, TheOperatorMaySayWhereItIsAfterItFailed) {
   EXPECT_THAT(robot_->log, HasSubstr("it has begun to home, and has not found home"));
   robot_->set("Drive1", "position_confirmed", true);
   EXPECT_EQ(robot_->arm(), CommandStage::kDone) << robot_->reasons();
+}
+
+TEST_P(OwnHoming, AWordThatWasGivenWhileItMovedDoesNotCountAfterwards) {
+  start("switch", "-1.2 rad", {"Joint1.HomingRequired=false"});
+  begin_and_move();
+  robot_->set("Drive1", "position_confirmed", true);
+  run_for(100ms);
+  ASSERT_EQ(robot_->call("Arming", "disarm"), "");
+  expect_rest_unhomed();
+}
+
+TEST_P(OwnHoming, NoPositionIsKeptOfAJointThatDidNotFindHome) {
+  start("switch", "-1.2 rad");
+  begin_and_move();
+  ASSERT_EQ(robot_->call("Arming", "disarm"), "");
+  run_for(500ms);
+  ASSERT_TRUE(application().stop().ok());
+  auto& joint = dynamic_cast<component::Keeps&>(*application().find("Joint1"));
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  EXPECT_THAT(joint.keeping().end({.owner = "arm/Joint1", .now = now}),
+              HasSubstr("it has begun to home, and has not found home"));
+}
+
+TEST_P(OwnHoming, AStartAfterItFailedSaysWhyItIsNotArmed) {
+  start("switch", "-1.2 rad", {"Joint1.HomingRequired=false"});
+  begin_and_move();
+  ASSERT_TRUE(application().stop_component("Drive1"));
+  run_for(300ms);
+  robot_->reset_and_start_everything();
+  robot_->reset_and_start_everything();
+  run_for(500ms);
+  robot_->log.clear();
+  EXPECT_NE(robot_->arm(), CommandStage::kDone);
+  EXPECT_THAT(robot_->log, HasSubstr("it has begun to home, and has not found home"));
+}
+
+/// Samples are what watches it.
+TEST_P(OwnHoming, IsNotBegunWhereOldCommandsAreHeld) {
+  start("switch", "-1.2 rad");
+  for (auto* input : component::interface_of(*application().find("Joint1")).inputs) {
+    const bool commands = !input->name().ends_with("Sensor");
+    if (commands) input->set_max_age(component::max_age(100ms, component::Reaction::kHold));
+  }
+  EXPECT_EQ(home(), CommandStage::kRefused);
+  EXPECT_THAT(reason(), HasSubstr("nobody would brake it if samples no longer came"));
+  EXPECT_EQ(angle(), kBegin);
 }
 
 TEST_P(OwnHoming, WhatIsArmedOrHomesIsNotHomed) {

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "talk.hpp"
 
@@ -143,6 +146,56 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
     EXPECT_GT(talk.count("Numbers", "Refused"), refused);
   }
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
+}
+
+TEST(In, WhatIsLargerThanFourMegabytesIsDropped) {
+  Talk talk(
+      deployment("ros: Numbers:\n    model: Float64MultiArray\n    properties: {topic: wanted, "
+                 "size: 1, lower: [-1], upper: [1]}\n"));
+  auto& arrays =
+      *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
+  std_msgs::msg::dds_::Float64MultiArray_ array;
+  array.data({0.5});
+  talk.send(arrays, array, "Numbers");
+  const std::uint64_t received = talk.count("Numbers", "Received");
+  array.data(std::vector<double>(600'000));
+  arrays.write(&array);
+  array.data({0.25});
+  talk.send(arrays, array, "Numbers");
+  EXPECT_GT(talk.count("Numbers", "Received"), received) << "what comes after it is heard";
+  EXPECT_EQ(talk.count("Numbers", "Refused"), 0u) << "it came as far as the component";
+}
+
+/// Of RTPS, with a submessage that is shorter than any of its kind.
+void send_malformed(int times) {
+  const std::vector<unsigned char> packet{'R',  'T', 'P', 'S', 2, 1, 1,  0x10, 1,  2,
+                                          3,    4,   5,   6,   7, 8, 9,  10,   11, 12,
+                                          0x15, 5,   4,   0,   0, 0, 16, 0};
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(7400 + 250 * kDomain + 10);
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  for (int k = 0; k < times; ++k) {
+    sendto(socket, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to),
+           sizeof to);
+  }
+  close(socket);
+}
+
+TEST(In, WhatIsNoMessageAtAllIsCountedAndToldOnceInAWhile) {
+  ::testing::internal::CaptureStderr();
+  testing::DeployedRobot robot(deployment(""));
+  ASSERT_EQ(robot.start(), "");
+  send_malformed(100);
+  const auto told = [&] { return robot.log.find("DDS had ") != std::string::npos; };
+  EXPECT_TRUE(wait_until([&] {
+    robot.run_for(20ms);
+    return told();
+  }));
+  EXPECT_THAT(robot.log, ::testing::HasSubstr("complaints, the last: "));
+  EXPECT_EQ(robot.log.find("DDS had "), robot.log.rfind("DDS had ")) << robot.log;
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 }  // namespace
 }  // namespace armature::ros2

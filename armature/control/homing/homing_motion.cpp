@@ -61,17 +61,17 @@ HomingMotion::Status HomingMotion::step(const Measured& measured) {
 // --- whether it obeys ------------------------------------------------------------------------
 
 HomingMotion::Status HomingMotion::judge(const Measured& measured) {
-  if (to_wait_ > 0) {
-    --to_wait_;
-    still_.reset();
-    begin_window(measured.way);
-    return Status::kGoesOn;
-  }
   moved_ = measured.way - window_begin_;
-  const double most = config_.tolerance + std::abs(config_.velocity) * window(config_.period_s);
-  if (std::abs(moved_ - told_) > most) return Status::kAstray;
+  if (is_astray()) return Status::kAstray;
   if (stage_ == Stage::kFindingAgain && outwards(measured.way - touched_) > config_.tolerance) {
     return Status::kStopGaveWay;
+  }
+  if (takes_up_) {
+    to_wait_ = std::max(0, to_wait_ - 1);
+    takes_up_ = !has_taken_up(measured.way);
+    still_.reset();
+    if (!takes_up_) begin_window(measured.way);
+    return Status::kGoesOn;
   }
   if (looks_for_stop()) {
     still_.reset();
@@ -82,6 +82,20 @@ HomingMotion::Status HomingMotion::judge(const Measured& measured) {
   const bool long_enough = steps_ * config_.period_s >= window(config_.period_s);
   const bool far_enough = !full_speed_ || std::abs(told_) >= 0.5 * config_.tolerance;
   return long_enough && far_enough ? end_window(measured.way) : Status::kGoesOn;
+}
+
+bool HomingMotion::is_astray() const {
+  const double most = config_.tolerance + std::abs(config_.velocity) * window(config_.period_s);
+  const double least_way = takes_up_ ? std::min(0.0, told_) : told_;
+  const double most_way = takes_up_ ? std::max(0.0, told_) : told_;
+  return moved_ < least_way - most || moved_ > most_way + most;
+}
+
+/// Either it has all that it may have and should move by now, or it has what moves it.
+bool HomingMotion::has_taken_up(double way) const {
+  if (to_wait_ > 0) return false;
+  const double ahead = side_ * (desired_ - way);
+  return ahead >= 0.999 * config_.lead || std::abs(told_) > 2.0 * config_.lead;
 }
 
 HomingMotion::Status HomingMotion::end_window(double way) {
@@ -112,11 +126,10 @@ bool HomingMotion::looks_for_stop() const {
 /// It pushes no more.
 HomingMotion::Status HomingMotion::touch(double way) {
   found_again_ = stage_ == Stage::kFindingAgain;
+  if (found_again_ && std::abs(way - touched_) > config_.tolerance) return Status::kStopGaveWay;
   touched_ = found_at_ = way;
   velocity_ = 0.0;
   desired_ = way;
-  begin_window(way);
-  to_wait_ = static_cast<int>(config_.patience_s / config_.period_s);
   enter(Stage::kBackingOff, -config_.velocity);
   return Status::kGoesOn;
 }
@@ -177,10 +190,23 @@ void HomingMotion::go_on(double way) {
   }
   const double change = config_.acceleration * config_.period_s;
   velocity_ = std::clamp(target_, velocity_ - change, velocity_ + change);
+  note_direction(way);
   full_speed_ = full_speed_ && velocity_ == target_ && target_ != 0.0;
   told_ += velocity_ * config_.period_s;
   desired_ =
       std::clamp(desired_ + velocity_ * config_.period_s, way - config_.lead, way + config_.lead);
+}
+
+/// At the first start nothing has pushed it the other way.
+void HomingMotion::note_direction(double way) {
+  const double side = velocity_ == 0.0 ? 0.0 : std::copysign(1.0, velocity_);
+  if (side == side_) return;
+  side_ = side;
+  takes_up_ = side != 0.0;
+  begin_window(way);
+  const bool turns_round = side * last_side_ < 0.0;
+  to_wait_ = turns_round ? static_cast<int>(config_.patience_s / config_.period_s) : 0;
+  if (side != 0.0) last_side_ = side;
 }
 
 /// Unless it brakes now.

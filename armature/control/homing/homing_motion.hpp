@@ -27,6 +27,10 @@ enum class HomeSign : std::uint8_t {
 /// a fifth of the velocity at the same place: a sensor that is dead, a brake that did not open and
 /// a load that gives way do not pass for one.
 ///
+/// Whenever it begins to move or turns round, what drives it has to overcome its friction first,
+/// and what has pushed it the other way: until it must have (`lead`, `patience_s`) the joint may be
+/// anywhere on the way that it was told to go. It is no stop that it does not move then.
+///
 /// The motion ends at rest. Where it would leave `travel` it comes to rest before, and has failed.
 /// What the joint does is compared with what it was told, in windows of 50 ms or more.
 class HomingMotion {
@@ -41,7 +45,7 @@ class HomingMotion {
     double tolerance = 0.0;     ///< more than a few counts of the sensor; > 0
     /// As far as what it is told may be ahead of it: with more it would push harder; > 0.
     double lead = 0.0;
-    /// In which it need not come away from a hard stop yet, since its drive, which has pushed,
+    /// In which it need not come back yet when it turns round, since its drive, which has pushed,
     /// takes that back by itself; >= 0.
     double patience_s = 0.0;
     double period_s = 0.0;  ///< > 0
@@ -63,7 +67,7 @@ class HomingMotion {
     kBeyond,        ///< it is outside its travel
     kBlocked,       ///< it was told to move, and did not
     kAstray,        ///< it moved otherwise than it was told
-    kStopGaveWay,   ///< the hard stop was elsewhere the second time
+    kStopGaveWay,   ///< it was stopped elsewhere the second time: by no hard stop
   };
 
   /// What is looked for at the moment, for who has to say what was missing.
@@ -105,6 +109,7 @@ class HomingMotion {
   explicit HomingMotion(const Config& config) : config_(config) {}
 
   Status judge(const Measured& measured);
+  bool is_astray() const;
   Status end_window(double way);
   void begin_window(double way);
   Status touch(double way);
@@ -113,6 +118,8 @@ class HomingMotion {
   void look_for_edge(const Measured& measured);
   void enter(Stage stage, double target);
   void go_on(double way);
+  void note_direction(double way);
+  bool has_taken_up(double way) const;
   bool would_leave(double way) const;
   bool looks_for_stop() const;
   double slowly_back() const { return -0.2 * config_.velocity; }
@@ -133,7 +140,10 @@ class HomingMotion {
   double told_ = 0.0;
   double moved_ = 0.0;
   int steps_ = 0;            ///< of the window
-  int to_wait_ = 0;          ///< steps in which it is not judged
+  double side_ = 0.0;        ///< of the velocity: 1, -1, or 0 at rest
+  double last_side_ = 0.0;   ///< the same, before it rested
+  bool takes_up_ = false;    ///< it has begun to move, or turned round, and may not follow yet
+  int to_wait_ = 0;          ///< steps of that at least
   bool full_speed_ = false;  ///< during all of it
 };
 

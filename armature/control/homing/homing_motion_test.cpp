@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,6 +118,92 @@ TEST(HomingMotion, FindsAHardStopAndComesAwayFromIt) {
   EXPECT_NEAR(joint.way, -0.65, 6e-3) << "and as far as it takes to brake";
 }
 
+// --- with friction ---------------------------------------------------------------------------
+
+/// A joint that an effort drives along the motion, with dry friction, a back-EMF, and counts of
+/// 0.1 mrad; it stops at -0.7, and has a switch below -0.5.
+struct StickyJoint {
+  double stiffness = 300.0;
+  double damping = 14.0;
+  double most_effort = 6.0;
+  double friction = 0.0;
+  double velocity = -0.2;
+  double back_emf = 0.0;
+
+  double at = 0.0;
+  double speed = 0.0;
+
+  HomingMotion motion_to(HomeSign sign) const {
+    HomingMotion::Config config = config_of(sign);
+    config.velocity = velocity;
+    config.travel = 1.3;
+    config.lead = most_effort / stiffness;
+    return HomingMotion::make(config).value();
+  }
+  void move(double effort) {
+    constexpr int kSteps = 20;
+    constexpr double kInertia = 0.25;
+    for (int k = 0; k < kSteps; ++k) {
+      const double driven = effort - back_emf * speed;
+      if (speed == 0.0 && std::abs(driven) <= friction) continue;
+      const double side = std::copysign(1.0, speed != 0.0 ? speed : driven);
+      const double next = speed + (driven - side * friction) / kInertia * kPeriod / kSteps;
+      speed = next * speed < 0.0 ? 0.0 : next;
+      at += speed * kPeriod / kSteps;
+      if (at < -0.7) speed = 0.0;
+      at = std::max(at, -0.7);
+    }
+  }
+  Status run(HomingMotion& motion) {
+    motion.begin(false);
+    double before = 0.0;
+    for (double time = 0.0; time < 150.0; time += kPeriod) {
+      const double way = std::round(at / 1e-4) * 1e-4;
+      const Status status = motion.step({.way = way, .switch_closed = way < -0.5});
+      if (status != Status::kGoesOn) return status;
+      const double slower = motion.velocity() - (way - before) / kPeriod;
+      before = way;
+      move(std::clamp(stiffness * (motion.desired_way() - way) + damping * slower, -most_effort,
+                      most_effort));
+    }
+    return Status::kGoesOn;
+  }
+};
+
+/// After it has turned round, what drives it has to cross twice its friction first.
+TEST(HomingMotion, FrictionIsNoHardStopAndNothingThatBlocks) {
+  std::vector<StickyJoint> joints;
+  for (const double friction : {0.0, 1.5, 3.0, 5.5}) joints.push_back({.friction = friction});
+  for (const double stiffness : {8.0, 15.0, 30.0, 60.0, 150.0}) {
+    joints.push_back({.stiffness = stiffness, .damping = 3.0, .most_effort = 3.0, .friction = 0.8});
+    joints.push_back({.stiffness = stiffness,
+                      .damping = 3.0,
+                      .most_effort = 3.0,
+                      .friction = 0.8,
+                      .velocity = -0.05,
+                      .back_emf = 4.0});
+  }
+  for (const StickyJoint& joint : joints) {
+    SCOPED_TRACE(::testing::Message() << joint.stiffness << ", friction " << joint.friction
+                                      << ", velocity " << joint.velocity);
+    for (const HomeSign sign : {HomeSign::kHardStop, HomeSign::kSwitch}) {
+      StickyJoint moved = joint;
+      HomingMotion motion = moved.motion_to(sign);
+      EXPECT_EQ(moved.run(motion), Status::kHome);
+      EXPECT_NEAR(motion.found_at(), sign == HomeSign::kSwitch ? -0.5 : -0.7, 1e-3);
+    }
+  }
+}
+
+TEST(HomingMotion, FrictionThatItMayNotOvercomeBlocksIt) {
+  for (const HomeSign sign : {HomeSign::kHardStop, HomeSign::kSwitch}) {
+    StickyJoint joint{.friction = 6.5};
+    HomingMotion motion = joint.motion_to(sign);
+    EXPECT_EQ(joint.run(motion), Status::kBlocked);
+    EXPECT_EQ(joint.at, 0.0);
+  }
+}
+
 // --- what does not become home ---------------------------------------------------------------
 
 TEST(HomingMotion, ASignThatNeverComesEndsItAtRestWithinItsTravel) {
@@ -181,6 +268,33 @@ TEST(HomingMotion, AStopThatIsElsewhereTheSecondTimeIsNone) {
   };
   EXPECT_EQ(joint.run(), Status::kStopGaveWay);
   EXPECT_GT(joint.way, -0.715) << "as soon as it is beyond";
+}
+
+TEST(HomingMotion, AStopThatIsShortOfItTheSecondTimeIsNone) {
+  Joint joint = joint_that_looks_for(HomeSign::kHardStop);
+  joint.obey = [&joint](double way, double velocity) {
+    const bool again = joint.motion.stage() == HomingMotion::Stage::kFindingAgain;
+    return std::max(again ? -0.68 : -0.7, way + velocity * kPeriod);
+  };
+  EXPECT_EQ(joint.run(), Status::kStopGaveWay);
+}
+
+/// While what drives it takes up its friction, too.
+TEST(HomingMotion, AJointThatRunsAwayWhenItTurnsRoundIsAstray) {
+  for (const double faster : {-3.0, 4.0}) {
+    HomingMotion::Config config = config_of(HomeSign::kSwitch);
+    config.lead = 0.3;
+    config.patience_s = 0.3;
+    Joint joint{.motion = HomingMotion::make(config).value()};
+    joint.obey = [&joint, faster](double way, double velocity) {
+      const bool turned = joint.motion.stage() == HomingMotion::Stage::kToEdge;
+      return way + (turned ? faster : 1.0) * velocity * kPeriod;
+    };
+    bool is_closed = false;  // from there on
+    joint.closed = [&is_closed](double way) { return is_closed = is_closed || way < -0.1; };
+    EXPECT_EQ(joint.run(), Status::kAstray) << faster;
+    EXPECT_NEAR(joint.way, -0.1, 0.06);
+  }
 }
 
 TEST(HomingMotion, AStopThatSlipsAwayFromWhoPushesIsNone) {

@@ -135,6 +135,12 @@ void Arming::give_up(std::string_view why) {
   disarm();
 }
 
+/// A joint that homes moves while nothing is armed.
+void Arming::stop_moving() {
+  stop_event_.raise();
+  if (phase_ != Phase::kArmed) disarm();
+}
+
 void Arming::disarm() {
   if (phase_ == Phase::kSettling || phase_ == Phase::kArming) arm_.fail("disarmed");
   phase_ = Phase::kDisarmed;

@@ -21,7 +21,8 @@ namespace armature::controllers {
 /// fails with the reason, and nobody stays armed, if one of them says `notArmed`, or nothing for
 /// `joint_patience`. While all are armed, Rest and Motion say whether they are to stand: whether
 /// what is desired rests for 0.1 s. `stop` raises Stop, which is a motion: generators brake
-/// smoothly and hold where they come to rest. `disarm` raises Disarm at once: effort 0, brakes
+/// smoothly and hold where they come to rest. What is not armed, a joint that homes, hears no Stop:
+/// until all are armed `stop` disarms. `disarm` raises Disarm at once: effort 0, brakes
 /// applied. If one joint is disarmed, all are.
 /// @rt nonblocking, no allocation, O(joints)
 class Arming final : public component::Component {
@@ -42,7 +43,7 @@ class Arming final : public component::Component {
   void give_up(std::string_view why);
   void joint_does_not_arm(const ComponentName& joint, const component::Reason& why);
   void disarm();
-  void stop_moving() { stop_event_.raise(); }
+  void stop_moving();
   void tell_armed(bool armed);
   bool is_armed() { return all_armed_.load(std::memory_order_relaxed); }
 
@@ -103,9 +104,10 @@ class Arming final : public component::Component {
                             "lets the joints move from now on",
                             component::by_operator,
                             component::cancelled_by<&Arming::disarm>};
-  component::Operation<void()> stop_{this, "stop", component::serve<&Arming::stop_moving>,
-                                     "brakes every motion smoothly; joints stay armed",
-                                     component::in_own_thread};
+  component::Operation<void()> stop_{
+      this, "stop", component::serve<&Arming::stop_moving>,
+      "brakes every motion smoothly; armed joints stay armed, what homes does not",
+      component::in_own_thread};
   component::Operation<void()> disarm_{this, "disarm", component::serve<&Arming::disarm>,
                                        "emergency stop: effort 0, brakes applied",
                                        component::in_own_thread};

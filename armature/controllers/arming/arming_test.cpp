@@ -217,6 +217,20 @@ TEST_F(ArmingTest, StopIsAMotionAndLeavesTheJointsArmed) {
   EXPECT_TRUE(arming.get<bool>("armed"));
 }
 
+TEST_F(ArmingTest, AStopBeforeAllAreArmedDisarms) {
+  start();
+  const std::size_t before = disarms->size();
+  ASSERT_TRUE(arming.call("stop"));
+  EXPECT_EQ(disarms->size(), before + 1) << "a joint may home";
+  auto command = arm();
+  ASSERT_TRUE(arming.call("stop"));
+  EXPECT_EQ(disarms->size(), before + 2);
+  EXPECT_EQ(command.stage(), CommandStage::kFailed);
+  desire(1.0, 2.0);
+  arming.run_cycles(200);
+  EXPECT_TRUE(arms->empty());
+}
+
 TEST_F(ArmingTest, AStopOfTheComponentDisarms) {
   start();
   get_armed();

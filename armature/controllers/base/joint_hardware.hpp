@@ -56,7 +56,8 @@ class JointHardware : public component::Component {
   virtual bool tells_of_shaft() const { return false; }
   /// @thread configuration only
   virtual HomingSigns homing_signs() const { return {}; }
-  Sensor sensor() const { return sensor_kind_; }
+  /// @thread configuration only
+  virtual Sensor sensor() const { return sensor_kind_; }
 
  protected:
   virtual bool actuator_on() = 0;
@@ -107,6 +108,7 @@ class JointHardware : public component::Component {
  private:
   /// Uses up the operator's word, if it is needed.
   bool position_known() {
+    end_search();
     const bool known = is_exact_ && !is_doubted_;
     if (!known && position_confirmed_.take()) {
       is_exact_ = true;
@@ -127,6 +129,7 @@ class JointHardware : public component::Component {
   bool begin_homing(control::DrivePermit permit, double most_effort) {
     if (!runs() || !permit) return false;
     position_confirmed_.withdraw();
+    searches_ = true;
     homes_exactly_ = true;
     doubt_position();
     if (!std::isfinite(most_effort)) return true;
@@ -136,10 +139,16 @@ class JointHardware : public component::Component {
   /// @return false if a sample was lost on the way there
   bool find_position(control::DrivePermit permit) {
     if (!permit || !homes_exactly_) return false;
+    searches_ = false;
     is_exact_ = true;
     is_doubted_ = false;
     tell_exact();
     return true;
+  }
+  /// Without having found it. What was said of it while it moved is not so any more.
+  void end_search() {
+    if (searches_) position_confirmed_.withdraw();
+    searches_ = false;
   }
   double index_passed() { return since_index(); }
   bool as_told() { return runs() && is_as_told(); }
@@ -177,6 +186,7 @@ class JointHardware : public component::Component {
   }
   bool switch_off() {
     const bool off = actuator_off();
+    end_search();
     if (off) switched_on_.assign(false);
     permit_ = {};
     if (is_bounded_) bound_effort(std::numeric_limits<double>::infinity());
@@ -265,6 +275,7 @@ class JointHardware : public component::Component {
       component::in_own_thread};
   bool is_exact_ = true;        ///< not the attribute, which tools may set
   bool is_doubted_ = false;     ///< until the operator has looked
+  bool searches_ = false;       ///< its joint does, for its position
   bool homes_exactly_ = false;  ///< no sample was lost since it looks for its position
   bool is_bounded_ = false;     ///< its drive's effort
   component::Attribute<bool> position_exact_{

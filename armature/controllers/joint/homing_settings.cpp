@@ -27,11 +27,23 @@ constexpr std::array kMethods{Name{"drive", HomingMethod::kDrive},
                               Name{"hard_stop", HomingMethod::kHardStop},
                               Name{"here", HomingMethod::kHere}};
 
+/// What but the method it is told.
+using Setting = std::pair<std::string_view, double HomingSettings::*>;
+constexpr std::array kSettings{Setting{"HomePosition", &HomingSettings::position},
+                               Setting{"HomingVelocity", &HomingSettings::velocity},
+                               Setting{"HomingTravel", &HomingSettings::travel},
+                               Setting{"HomingEffort", &HomingSettings::effort},
+                               Setting{"HomingStiffness", &HomingSettings::stiffness},
+                               Setting{"HomingDamping", &HomingSettings::damping},
+                               Setting{"HomingBackOff", &HomingSettings::back_off}};
+
 /// Of MaxVelocity, for homing: no joint is to look for its end faster.
 constexpr double kFastest = 0.5;
 /// Of ArmingMotion: shorter ways are not told from standing.
 constexpr double kShortestTravel = 4.0;
 constexpr double kShortestBackOff = 2.0;
+/// Of the way from PositionMin to PositionMax: stops and switches are beyond these.
+constexpr double kLongestTravel = 1.5;
 
 }  // namespace
 
@@ -100,6 +112,15 @@ std::string HomingProperties::objection_to_motion() const {
     return "HomingTravel is " + figure(get().travel) + ", expected more than " +
            figure(kShortestTravel * joint_->arming_motion) + ", four times ArmingMotion";
   }
+  const double range = joint_->highest() - joint_->lowest();  // infinite if it is continuous
+  if (!(get().travel <= kLongestTravel * range)) {
+    return "HomingTravel is " + figure(get().travel) + ", expected up to " +
+           figure(kLongestTravel * range) + ", 1.5 times the way from PositionMin to PositionMax";
+  }
+  if (!(joint_->homing_time > get().travel / speed)) {
+    return "HomingTime is " + figure(joint_->homing_time) + " s, expected more than " +
+           figure(get().travel / speed) + " s, which HomingTravel takes with HomingVelocity";
+  }
   if (method() != HomingMethod::kHardStop) return {};
   if (joint_->continuous) {
     return "HomingMethod is hard_stop, and Continuous says that the joint turns without end: leave "
@@ -128,31 +149,35 @@ std::string HomingProperties::objection_to_effort() const {
   return {};
 }
 
-/// Settings of a homing that there is not are a mistake in its method. The values that they have
-/// anyway, which a property file of the joint has, too, say nothing.
-std::string HomingProperties::objection_to_unused(const component::Check& /*check*/) const {
-  struct Setting {
-    const char* name;
-    bool given;
-    bool of_motion = true;
-  };
-  const HomingSettings usual;
-  const Setting settings[] = {{"HomePosition", get().position != usual.position, false},
-                              {"HomingVelocity", get().velocity != usual.velocity},
-                              {"HomingTravel", get().travel != usual.travel},
-                              {"HomingEffort", get().effort != usual.effort},
-                              {"HomingStiffness", get().stiffness != usual.stiffness},
-                              {"HomingDamping", get().damping != usual.damping},
-                              {"HomingBackOff", get().back_off != usual.back_off}};
-  for (const Setting& each : settings) {
-    if (!each.given) continue;
+/// Settings of a homing that there is not are a mistake in its method. A file that autosave writes
+/// has all of them, those too as they are by default.
+std::string HomingProperties::objection_to_unused() const {
+  const HomingSettings by_default;
+  for (const auto& [name, setting] : kSettings) {
+    if (get().*setting == by_default.*setting) continue;
+    const std::string given = std::string(name) + " is given, and ";
     if (method() == HomingMethod::kDrive) {
-      return std::string(each.name) +
-             " is given, and HomingMethod is 'drive': its hardware homes by its own settings";
+      return given + "HomingMethod is 'drive': its hardware homes by its own settings";
     }
-    if (each.of_motion && !moves()) {
-      return std::string(each.name) + " is given, and HomingMethod is 'here': nothing moves";
+    if (setting == &HomingSettings::position) continue;
+    if (!moves()) return given + "HomingMethod is 'here': nothing moves";
+    const bool is_gain =
+        setting == &HomingSettings::stiffness || setting == &HomingSettings::damping;
+    if (is_gain && !is_effort(command_)) return given + "its drive follows by its own gains";
+    if (setting == &HomingSettings::back_off && method() != HomingMethod::kHardStop) {
+      return given + "HomingMethod is '" + get().method + "': it comes away from a hard stop alone";
     }
+  }
+  return {};
+}
+
+/// Samples are what watches it.
+std::string HomingProperties::objection_to_no_sampler() const {
+  for (const component::PropertyBase* const each : component::interface_of(owner_).properties) {
+    if (each->name() != "Sampler" || *static_cast<const bool*>(each->data())) continue;
+    return "HomingMethod is " + get().method +
+           ", and Sampler is false: nobody would brake the joint if whoever calls sensorRead no "
+           "longer did. Set Sampler: true";
   }
   return {};
 }
@@ -179,23 +204,38 @@ std::string HomingProperties::objection_to(const JointHardware& hardware) const 
            "tells of no index mark: use another method, or have its homing_signs say so "
            "and its since_index tell of it";
   }
-  if (method() == HomingMethod::kHardStop && !is_effort(command_) && !signs.bounds_effort) {
+  if (is_effort(command_) || signs.bounds_effort) return {};
+  if (method() == HomingMethod::kHardStop) {
     return whose +
            "does not bound the effort of its drive, which would push with all that it "
            "has: use another method, or command it by an effort";
+  }
+  if (get().effort > 0.0) {
+    return "HomingEffort is given, and '" + hardware.name() +
+           "' does not bound the effort of its drive: leave it out, bound it in the drive, or "
+           "command it by an effort";
   }
   return {};
 }
 
 void HomingProperties::check(component::Check& check) const {
   if (const std::string wrong = objection(); !wrong.empty()) return check.error(wrong);
-  if (const std::string unused = objection_to_unused(check); !unused.empty()) {
+  if (const std::string unused = objection_to_unused(); !unused.empty()) {
     return check.error(unused, "leave it out, or name another method");
   }
   const JointHardware* const hardware = hardware_of(owner_, check);
   is_of_absolute_sensor_ =
       hardware != nullptr && hardware->sensor() == JointHardware::Sensor::kAbsolute;
+  const bool counts = hardware != nullptr && hardware->sensor() == JointHardware::Sensor::kCounting;
+  if (counts && method() != HomingMethod::kDrive && !joint_->homing_required) {
+    check.warning("HomingMethod is " + get().method + ", HomingRequired is not set, and '" +
+                      hardware->name() +
+                      "' counts from where it was switched on: it can be armed at a position that "
+                      "nobody knows",
+                  "set HomingRequired: true");
+  }
   if (!moves()) return;
+  if (const std::string wrong = objection_to_no_sampler(); !wrong.empty()) check.error(wrong);
   if (hardware == nullptr) {
     return check.error("HomingMethod is " + get().method +
                        ", and what its sensor is of does not say what it can be homed by: extend "

@@ -32,7 +32,7 @@ struct HomingSettings {
   double position = 0.0;   ///< at home
   double velocity = 0.0;   ///< towards the sign
   double travel = 0.0;     ///< that it may be away from where it began
-  double effort = 0.0;     ///< at most; of a drive that follows [Nm or N]
+  double effort = 0.0;     ///< at most; of a drive that follows [Nm or N], 0: what that can
   double stiffness = 0.0;  ///< of a joint that is commanded by an effort
   double damping = 0.0;
   double back_off = 0.05;  ///< of a hard stop
@@ -60,7 +60,8 @@ class HomingProperties final : public component::Properties<HomingSettings>,
  private:
   std::string objection_to_motion() const;
   std::string objection_to_effort() const;
-  std::string objection_to_unused(const component::Check& check) const;
+  std::string objection_to_unused() const;
+  std::string objection_to_no_sampler() const;
   std::string objection_to(const JointHardware& hardware) const;
   std::string objection_to(const DrivenJoint& joint) const;
 

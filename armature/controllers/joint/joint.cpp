@@ -41,20 +41,26 @@ constexpr base::Duration kAlternationTime = 500ms;
 constexpr base::Duration kMeasuredLastly = 100ms;
 /// How long a joint may take to come to rest once it is to stand.
 constexpr base::Duration kComingToRest = 2s;
+/// What is slower rests, or is noise.
+constexpr double kSlowestAngle = 0.02;    // rad/s
+constexpr double kSlowestLength = 0.001;  // m/s
 
 bool is_sign(double number) { return number == 1.0 || number == -1.0; }
 
 }  // namespace
 
 Outcome Joint::on_configure() {
-  initial_position_ = settings_->initial_position;
+  zero_ = settings_->zero();
   measured_ = {.position = kept_.initial(), .velocity = 0.0};
   return set_up();
 }
 
 Outcome Joint::on_start() {
   if (changes_.take()) {
-    if (Outcome outcome = set_up(); !outcome) return outcome;
+    if (Outcome outcome = set_up(); !outcome) {
+      changes_.follow();  // the next start asks again
+      return outcome;
+    }
   }
   if (sampler_ && !command_.connected()) {
     return component::refused("input " + std::string(names_.command) +
@@ -75,7 +81,7 @@ Outcome Joint::on_start() {
   started_ = time();
   intervals_.begin(period_.duration());
   measured_since_start_ = false;
-  homed_now_ = homing_failed_ = false;
+  homed_now_ = false;
   homed_.assign(false);
   if (absolute_) absolute_->reset();
   switch_off();
@@ -92,13 +98,14 @@ void Joint::on_stop() {
   const base::Duration unseen = time() - measured_at_;
   const bool measured =
       measured_since_start_ && unseen <= std::max(kMeasuredLastly, 2 * period_.duration());
-  const bool at_rest = measured && std::abs(measured_.velocity) <= kRest;
+  const bool at_rest = measured && std::abs(measured_.velocity) <= rest_;
   const bool braked = brake_at_once();
   cut_power();
   kept_.note_stop({.position = measured_.position,
                    .at_rest = at_rest,
                    .braked = braked,
-                   .exact = hardware_.is_exact()});
+                   .exact = hardware_.is_exact(),
+                   .known = unknown_ == Unknown::kNothing});
 }
 
 Outcome Joint::set_up() {
@@ -118,6 +125,7 @@ Outcome Joint::set_up() {
   if (!is_effort(way_) && !(settings_->max_error > 0.0)) {
     return component::refused(std::string(names_.limit) + " must be a number above 0");
   }
+  rest_ = units_.position().get() == "m" ? kSlowestLength : kSlowestAngle;
   auto limiter = JointLimiter::make(limits());
   if (!limiter) return component::refused(limiter.error());
   auto sequence = control::ArmingSequence::make(arming_steps());
@@ -127,6 +135,7 @@ Outcome Joint::set_up() {
   auto absolute = control::AbsolutePosition::make(absolute_sensor());
   if (!absolute) return component::refused(absolute.error());
   if (Outcome outcome = own_.set_up(period_.duration()); !outcome) return outcome;
+  if (Outcome outcome = count_from_zero(); !outcome) return outcome;
   limiter_ = limiter.value();
   absolute_ = absolute.value();
   following_ = control::FollowingWatch(
@@ -138,12 +147,25 @@ Outcome Joint::set_up() {
   sensor_ratio_ = settings_->sensor_sign * settings_->gear_ratio;
   effort_ratio_ =
       settings_->actuator_sign * (way_ == JointCommand::kTorque ? settings_->gear_ratio : 1.0);
-  if (settings_->initial_position != initial_position_) {
-    initial_position_ = settings_->initial_position;
-    measured_ = {.position = initial_position_, .velocity = 0.0};
-  }
   clipped_.assign(0);
   changes_.take();
+  return component::accepted();
+}
+
+/// What homing has found is of the zero that it was found with.
+Outcome Joint::count_from_zero() {
+  const JointZero before = zero_;
+  const JointZero now = settings_->zero();
+  if (now == before) return component::accepted();
+  if (is_found_ && !hardware_.doubt_position()) {
+    return component::refused(
+        "InitialPos, SensorSign, GearRatio or SensorRange was changed since it was homed, and '" +
+        peer_name_.get() + "' asks nobody for position_confirmed: set it back");
+  }
+  if (is_found_) unknown_ = Unknown::kOtherZero;
+  is_found_ = false;
+  zero_ = now;
+  if (now.position != before.position) measured_ = {.position = now.position, .velocity = 0.0};
   return component::accepted();
 }
 
@@ -156,9 +178,11 @@ control::StillWatch::Config Joint::still() const {
 /// Of a joint whose drive controls it: the drive has its own.
 double Joint::max_effort() const { return is_effort(way_) ? settings_->max_effort : 1.0; }
 
+/// What homing has found outlasts a change of other settings.
 control::AbsolutePosition::Config Joint::absolute_sensor() const {
+  const bool is_found = is_found_ && settings_->zero() == zero_;
   return {.ratio = settings_->sensor_sign * settings_->gear_ratio,
-          .offset = settings_->initial_position,
+          .offset = is_found ? absolute_->offset() : settings_->initial_position,
           .range = settings_->sensor_range,
           .max_velocity = settings_->max_velocity};
 }
@@ -192,7 +216,7 @@ control::HoldingWatch::Config Joint::holding() const {
           .max_alternation =
               settings_->holding_alternation < 1.0 ? settings_->holding_alternation : 2.0,
           .alternation_time = kAlternationTime,
-          .rest_velocity = kRest,
+          .rest_velocity = rest_,
           .settling_time = kComingToRest};
 }
 

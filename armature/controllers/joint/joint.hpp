@@ -94,8 +94,6 @@ class Joint : public component::Component,
       : Component(std::move(name)), way_(command), names_(names_of(command)) {}
 
  private:
-  static constexpr double kRest = 0.02;  ///< [rad/s]; what is slower rests, or is noise
-
   enum class Phase {
     kDisarmed,
     kTakingLoad,  ///< the brake is closed, or the motor off without one
@@ -108,7 +106,15 @@ class Joint : public component::Component,
   component::Outcome on_start() override;
   void on_stop() override;
 
+  /// What happened to its position, for who has to say why it is not armed.
+  enum class Unknown {
+    kNothing,
+    kBegunToHome,  ///< and not found home
+    kOtherZero,    ///< than it was homed with
+  };
+
   component::Outcome set_up();
+  component::Outcome count_from_zero();
   double max_effort() const;
   control::AbsolutePosition::Config absolute_sensor() const;
   control::JointLimiter::Config limits() const;
@@ -142,6 +148,7 @@ class Joint : public component::Component,
   void let_go();
   void be_armed();
   void fail_to_arm(const component::Reason& why);
+  component::Reason why_unknown() const;
   component::Reason not_held() const;
   component::Reason moved_before() const;
   component::Reason never_settled() const;
@@ -149,11 +156,12 @@ class Joint : public component::Component,
   // Homing: joint_homing.cpp.
   component::Outcome begin_homing();
   component::Outcome may_home() const;
+  component::Outcome may_move_to_home() const;
   component::Outcome begin_by_hardware();
   component::Outcome begin_by_itself();
-  component::Outcome be_here();
+  void be_here();
   bool homes_by_hardware() const { return homing_.method() == HomingMethod::kDrive; }
-  bool begin_search();
+  bool begin_search(control::DrivePermit permit);
   void follow_own_homing(double displacement);
   void let_go_to_home();
   bool switch_on_to_home();
@@ -367,13 +375,15 @@ class Joint : public component::Component,
   double homing_way_ = 0.0;      ///< by which it has moved, with its sign
   bool homing_jumped_ = false;   ///< its position became new
   bool looks_for_home_ = false;  ///< by itself, and was let go
-  bool homing_failed_ = false;   ///< nobody knows where it is
-  bool homed_now_ = false;       ///< and its command ends with the next sample
+  Unknown unknown_ = Unknown::kNothing;
+  bool is_found_ = false;   ///< it was homed: its zero is not the one that it was set to
+  bool homed_now_ = false;  ///< and its command ends with the next sample
   bool index_closed_ = false;
   double sensor_ratio_ = 1.0;       ///< motion of the joint for one of the motor
+  double rest_ = 0.0;               ///< [rad/s or m/s]; what is slower rests, or is noise
   double effort_ratio_ = 1.0;       ///< effort of the motor for one of the joint
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
-  double initial_position_ = 0.0;   ///< that it was set to
+  JointZero zero_;                  ///< that it was set to
 };
 
 /// A joint whose drive is commanded so.

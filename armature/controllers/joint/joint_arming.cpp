@@ -34,17 +34,10 @@ void Joint::on_arm() {
   }
   if (!hardware_.knows_position()) {
     if (kept_.is_doubtful()) return fail_to_arm(kept_.question(told(measured_.position)));
-    if (homing_failed_) {
-      return fail_to_arm(
-          "it has begun to home, and has not found home: call its command home, or look whether it "
-          "is where its Position says, then set position_confirmed of its hardware");
-    }
-    return fail_to_arm(
-        "a sample of it was lost for good: look whether it is where its Position says, then set "
-        "position_confirmed of its hardware");
+    return fail_to_arm(why_unknown());
   }
   kept_.be_sure();
-  homing_failed_ = false;
+  unknown_ = Unknown::kNothing;
   if (!measured_lately()) {
     return fail_to_arm("it was not measured in this sampling period");
   }
@@ -119,6 +112,24 @@ void Joint::fail_to_arm(const Reason& why) {
   log_error("not armed: {}", why.view());
   armed_.write(false);
   if (not_armed_.bound()) static_cast<void>(not_armed_.send(ComponentName(name()), why));
+}
+
+Reason Joint::why_unknown() const {
+  Reason why;
+  switch (unknown_) {
+    case Unknown::kBegunToHome:
+      why.append("it has begun to home, and has not found home: call its command home, or look");
+      break;
+    case Unknown::kOtherZero:
+      why.append(
+          "its InitialPos, SensorSign, GearRatio or SensorRange was changed since it was homed: "
+          "call its command home, or look");
+      break;
+    case Unknown::kNothing:
+      why.append("a sample of it was lost for good: look");
+  }
+  return why.append(
+      " whether it is where its Position says, then set position_confirmed of its hardware");
 }
 
 Reason Joint::not_held() const {
@@ -244,7 +255,7 @@ void Joint::note_sinking(double displacement) {
 /// @return the brake is applied
 bool Joint::disarm() {
   if (phase_ == Phase::kHoming && homes_by_hardware()) return switch_off();
-  const bool turns = std::abs(measured_.velocity) > kRest;
+  const bool turns = std::abs(measured_.velocity) > rest_;
   if ((limiter_->armed() || own_.armed()) && measured_lately() && turns) {
     off_at_rest_ = true;
     disarmed_at_ = time();
@@ -288,7 +299,7 @@ bool Joint::cut_power() {
 
 void Joint::cut_power_at_rest() {
   const bool waited = time() - disarmed_at_ > kLongestBraking;
-  if (waited || std::abs(measured_.velocity) <= kRest) cut_power();
+  if (waited || std::abs(measured_.velocity) <= rest_) cut_power();
 }
 
 bool Joint::brake_release(control::DrivePermit permit) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 #include "armature/controllers/joint/joint.hpp"
 
@@ -34,11 +35,16 @@ Outcome Joint::begin_homing() {
         "its hardware does not home by itself: give the joint a HomingMethod");
   }
   if (Outcome outcome = may_home(); !outcome) return outcome;
+  if (homing_.method() != HomingMethod::kHere) {
+    if (Outcome outcome = may_move_to_home(); !outcome) return outcome;
+  }
   homing_since_ = time();
   homing_way_ = 0.0;
   homing_jumped_ = false;
   if (homes_by_hardware()) return begin_by_hardware();
-  return homing_.moves() ? begin_by_itself() : be_here();
+  if (homing_.moves()) return begin_by_itself();
+  phase_ = Phase::kHoming;  // until the next sample, which ends it
+  return component::accepted();
 }
 
 Outcome Joint::may_home() const {
@@ -49,13 +55,33 @@ Outcome Joint::may_home() const {
   if (arming_ == nullptr || arming_->state() != component::State::kRunning) {
     return component::refused("no Arming runs that could disarm it");
   }
-  if (!measured_lately() || std::abs(measured_.velocity) > kRest) {
+  if (!measured_lately() || std::abs(measured_.velocity) > rest_) {
     return component::refused("it does not rest, or was not measured in this sampling period");
   }
   if (!std::isfinite(measured_.position)) {
     return component::refused("its position is not a finite number");
   }
   return component::accepted();
+}
+
+/// Samples are what watches it: whoever stops to make them has to stop it, too.
+Outcome Joint::may_move_to_home() const {
+  if (!sampler_) {
+    return component::refused(
+        "Sampler is false: nobody would brake it if whoever calls sensorRead no longer did");
+  }
+  const component::InputPortBase& input = face(command_);
+  const bool stops = input.stale_reaction() == component::Reaction::kStop ||
+                     input.stale_reaction() == component::Reaction::kFault;
+  const base::Duration longest = std::max(kMaxAge, 4 * period_.duration());
+  if (stops && input.max_age() <= longest) return component::accepted();
+  Reason why("its input ");
+  append_number(why.append(names_.command).append(" takes commands that are older than "),
+                base::to_seconds(longest));
+  why.append(
+      " s: nobody would brake it if samples no longer came. Leave out max_age and on_old of its "
+      "connection");
+  return component::refused(why.view());
 }
 
 void Joint::cancel_homing() {
@@ -95,7 +121,9 @@ Outcome Joint::begin_by_hardware() {
     return component::refused("its position is not a finite number");
   }
   phase_ = Phase::kHoming;
-  if (hardware_.home(limiter_->permit())) return component::accepted();
+  if (hardware_.home(limiter_->permit()) && begin_search(limiter_->permit())) {
+    return component::accepted();
+  }
   switch_off();
   return component::refused(
       "its hardware does not begin: give it a homing_method, and look at its state");
@@ -134,6 +162,11 @@ void Joint::homing_jumped(double position) {
 }
 
 void Joint::be_homed() {
+  if (!hardware_.find_position(limiter_->permit())) {
+    return fail_homing("a sample of it was lost while it homed: home it again", false);
+  }
+  unknown_ = Unknown::kNothing;
+  kept_.be_sure();
   home_.complete();
   switch_off();
   log_info("homed: it is at {} {}, disarmed", four_digits(measured_.position),
@@ -145,7 +178,7 @@ void Joint::be_homed() {
 Outcome Joint::begin_by_itself() {
   off_at_rest_ = false;
   looks_for_home_ = false;
-  const bool ready = own_.hold() && begin_search();
+  const bool ready = own_.hold() && begin_search(own_.permit());
   phase_ = Phase::kHoming;
   if (ready && (!brake_ || hardware_.actuator_on(own_.permit()))) {
     sequence_->begin(measured_.position, time());
@@ -156,17 +189,17 @@ Outcome Joint::begin_by_itself() {
 }
 
 /// From now on nobody knows where it is.
-bool Joint::begin_search() {
+bool Joint::begin_search(control::DrivePermit permit) {
   homed_.assign(false);
-  homing_failed_ = true;
-  const double ratio =
-      std::abs(sensor_ratio_);  // an effort of the joint is that of its motor by it
-  const double most = own_.most_effort() * ratio;
-  return hardware_.begin_search(own_.permit(), most);
+  unknown_ = Unknown::kBegunToHome;
+  // An effort of the joint is that of its motor by the gear.
+  const double most = own_.most_effort() * std::abs(sensor_ratio_);
+  return hardware_.begin_search(permit, most);
 }
 
 /// Once a sample.
 void Joint::follow_own_homing(double displacement) {
+  if (!homing_.moves()) return be_here();
   homing_way_ += displacement;
   if (looks_for_home_) {
     look_for_home();
@@ -250,19 +283,21 @@ void Joint::be_at(double position) {
   const double by = position - measured_.position;
   measured_.position = position;
   absolute_->shift(by);
-  homing_failed_ = false;
+  unknown_ = Unknown::kNothing;
+  is_found_ = true;
   kept_.be_sure();
   homed_.assign(true);
   homed_now_ = true;
 }
 
 /// Nothing moves, and nothing is switched on: the permit goes no farther than to say so.
-Outcome Joint::be_here() {
-  const bool found = own_.hold() && begin_search() && hardware_.find_position(own_.permit());
-  own_.disarm();
-  if (!found) return component::refused("its hardware does not run");
+void Joint::be_here() {
+  const bool found =
+      own_.hold() && begin_search(own_.permit()) && hardware_.find_position(own_.permit());
+  if (!found) return fail_homing("its hardware does not run", false);
+  homed_now_ = true;
+  switch_off();
   be_at(homing_->position);
-  return component::accepted();
 }
 
 void Joint::tell_homed() {

@@ -9,6 +9,16 @@
 
 namespace armature::controllers {
 
+/// Where a joint counts its position from: with another one it is elsewhere.
+struct JointZero {
+  double position = 0.0;  ///< InitialPos
+  double sensor_sign = 1.0;
+  double gear_ratio = 1.0;
+  double sensor_range = 0.0;
+
+  bool operator==(const JointZero&) const = default;
+};
+
 /// What a Joint is told of itself. Positions of the joint, in its unit (rad or m); efforts in the
 /// unit of its command.
 struct JointSettings {
@@ -41,6 +51,7 @@ struct JointSettings {
   double holding_velocity = 0.5;
   double holding_alternation = 0.4;
 
+  JointZero zero() const { return {initial_position, sensor_sign, gear_ratio, sensor_range}; }
   /// Where the joint ends; a continuous one does not.
   double lowest() const { return continuous ? -std::numeric_limits<double>::infinity() : lower; }
   double highest() const { return continuous ? std::numeric_limits<double>::infinity() : upper; }

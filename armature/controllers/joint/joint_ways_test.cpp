@@ -76,6 +76,26 @@ TEST_F(TorqueJoint, TheMotorGetsTheTorqueOfTheJointThroughItsGear) {
   EXPECT_THAT(joint.reason(), HasSubstr("Torque is nan"));
 }
 
+// --- linear axes -------------------------------------------------------------------------------
+
+/// In m; what would be noise of a joint that turns is motion of an axis.
+TEST_F(TorqueJoint, ALinearAxisRestsOnlyBelowOneMillimetreInASecond) {
+  joint.set("Unit", std::string("m"));
+  start();
+  joint.raise("Arm");
+  for (int k = 0; k < 400 && !armed(); ++k) {
+    told<control::LimitedEffort>(0.0);
+    sample();
+  }
+  ASSERT_TRUE(armed());
+  sample(0.01);  // 10 mm/s
+  calls.clear();
+  joint.raise("Disarm");
+  EXPECT_THAT(commands(), ElementsAre("brakeApply")) << "its motor brakes it";
+  sample(0.0005);
+  EXPECT_THAT(commands(), ElementsAre("brakeApply", "actuatorOff"));
+}
+
 // --- positions ---------------------------------------------------------------------------------
 
 class PositionJoint : public JointOfWay<JointCommand::kPosition> {

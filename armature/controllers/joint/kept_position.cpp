@@ -143,6 +143,7 @@ std::string KeptPosition::end(const KeepingMoment& moment) {
   if (!stop_.at_rest) return "it was not measured at rest when it stopped";
   if (!stop_.braked) return "its brake did not confirm that it holds";
   if (!stop_.exact) return "a sample of it was lost";
+  if (!stop_.known) return "it has begun to home, and has not found home";
   if (doubtful_ && !proposal_) return "the operator did not confirm where it began";
   const bool within =
       stop_.position >= settings_->lowest() && stop_.position <= settings_->highest();

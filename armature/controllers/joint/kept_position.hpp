@@ -34,6 +34,7 @@ class KeptPosition final : public component::Keeping {
     bool at_rest = false;   ///< measured just before
     bool braked = false;    ///< confirmed by the hardware, if it has a brake
     bool exact = false;     ///< no sample was lost
+    bool known = true;      ///< it did not begin to home without finding it, or was looked at
   };
 
   KeptPosition(component::Component* owner, const JointProperties& settings);

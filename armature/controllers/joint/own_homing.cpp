@@ -90,8 +90,8 @@ JointLimiter::Config OwnHoming::limits(base::Duration period) const {
 }
 
 double OwnHoming::most_effort() const {
-  const bool pushes = settings_.method() == HomingMethod::kHardStop && !is_effort(way_);
-  return pushes ? settings_->effort : std::numeric_limits<double>::infinity();
+  const bool is_bounded = settings_->effort > 0.0 && !is_effort(way_);
+  return is_bounded ? settings_->effort : std::numeric_limits<double>::infinity();
 }
 
 bool OwnHoming::hold() {
@@ -173,11 +173,11 @@ Reason OwnHoming::why(Status status, double way) const {
       return append_length(why, motion_.moved())
           .append(
               ": look for what drives it; HomingEffort and HomingStiffness have to hold its "
-              "weight");
+              "weight, and to overcome its friction");
     default:
       append_length(why.append("was stopped at "), motion_.found_at());
       return append_length(why.append(" of its way, and the second time at "), way)
-          .append(": what stops it gives way");
+          .append(": what stops it gives way, or is friction or its weight, and no hard stop");
   }
 }
 

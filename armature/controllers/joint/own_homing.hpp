@@ -25,8 +25,8 @@ class OwnHoming {
 
   component::Outcome set_up(base::Duration period);
 
-  /// What the joint is driven with at most; of a drive that follows by itself infinite, unless it
-  /// has to push.
+  /// What a drive that follows by itself is bound to, at the joint; infinite: it is not. Of a joint
+  /// that is given efforts its limiter sees to that.
   double most_effort() const;
 
   /// The joint rests; from now on there is a permit, and commands that hold it there.
