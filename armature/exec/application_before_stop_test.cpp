@@ -41,6 +41,8 @@ class Relay : public component::Component {
 
 /// The threads of loads do not go on.
 std::atomic<bool> hangs{false};
+/// One of them has come to that.
+std::atomic<bool> hanging{false};
 
 /// Lies in nobody's hand but the motor's.
 class Load : public component::Component {
@@ -63,6 +65,7 @@ class Load : public component::Component {
   }
   static void hang() {
     const rt::PermitScope what_a_test_does_is_no_real_time_code;
+    hanging = true;
     hangs.wait(true);
   }
   bool lies() { return !held_(); }
@@ -294,6 +297,8 @@ TEST(HoldingByAThreadThatHangs, IsNotWaitedForAndIsAnError) {
   Application application(std::move(blueprint), std::move(options));
   ASSERT_EQ(application.start().to_text(), "");
   hangs = true;
+  while (!hanging) {  // a thread that is only late answers the next time, and holds on for 24 h
+  }
   while (application.held().at(0).answers) {
   }
   EXPECT_THAT(application.hold_until_told().to_text(),

@@ -33,9 +33,8 @@ class Host {
   PythonComponent& in_its_hook() const {
     if (!in_hook()) {
       throw inspect::Refusal(
-          "a component in Python has its properties, ports and log in its hooks only: elsewhere, "
-          "as "
-          "in a thread of its own, keep values in plain attributes");
+          "a component in Python has its properties, ports and log in its hooks only: "
+          "elsewhere, as in a thread of its own, keep values in plain attributes");
     }
     return component();
   }

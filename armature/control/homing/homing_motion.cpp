@@ -16,6 +16,8 @@ constexpr int kStepsOfWindow = 5;
 constexpr double kLeastShare = 0.2;
 /// Of the tolerance: what moves less in a window rests.
 constexpr double kRestShare = 0.2;
+/// Of the tolerance: a switch that is still open so far away is left.
+constexpr double kLeftShare = 0.1;
 
 double window(double period_s) { return std::max(kWindow, kStepsOfWindow * period_s); }
 
@@ -165,14 +167,23 @@ void HomingMotion::look_for_sign(const Measured& measured) {
   }
 }
 
-/// Not before it has turned round: a short cam may have been passed.
+/// Not before it has turned round: a short cam may have been passed. It may pass it also then, by
+/// what it lags behind, and comes back over it: the edge is the one behind which it stays open.
 void HomingMotion::look_for_edge(const Measured& measured) {
   const bool goes_on = outwards(velocity_) > 0.0;
-  const bool opened = !goes_on && was_closed_ && !measured.switch_closed;
+  if (opened_at_ && measured.index_passed && !mark_) mark_ = measured.way - measured.since_index;
+  if (!goes_on && was_closed_ && !measured.switch_closed) {
+    opened_at_ = measured.way;
+    mark_.reset();
+  }
   was_closed_ = !goes_on && measured.switch_closed;
-  if (!opened) return;
-  found_at_ = measured.way;
-  if (config_.sign == HomeSign::kSwitchThenIndex) return enter(Stage::kToIndex, slowly_back());
+  if (measured.switch_closed) opened_at_.reset();
+  if (!opened_at_) return;
+  if (outwards(*opened_at_ - measured.way) < kLeftShare * config_.tolerance) return;
+  found_at_ = *opened_at_;
+  if (config_.sign != HomeSign::kSwitchThenIndex) return enter(Stage::kEnding, 0.0);
+  if (!mark_) return enter(Stage::kToIndex, slowly_back());
+  found_at_ = *mark_;
   enter(Stage::kEnding, 0.0);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "armature/base/result.hpp"
 #include "armature/control/still_watch.hpp"
@@ -20,12 +21,12 @@ enum class HomeSign : std::uint8_t {
 /// have next, and whether it obeys. It moves nothing itself, and knows no positions. One thread
 /// uses it.
 ///
-/// A switch is approached with `velocity`, and left with a fifth of it: home is where it opens. A
-/// joint that begins at its switch leaves it at once. An index mark is looked for with `velocity`,
-/// or from the switch on with a fifth of it. A hard stop is where a joint that is told to move does
-/// not. It is believed only if the joint comes away from it, by `back_off`, and finds it again with
-/// a fifth of the velocity at the same place: a sensor that is dead, a brake that did not open and
-/// a load that gives way do not pass for one.
+/// A switch is approached with `velocity`, and left with a fifth of it: home is where it opens, and
+/// stays open. A joint that begins at its switch leaves it at once. An index mark is looked for
+/// with `velocity`, or from the switch on with a fifth of it. A hard stop is where a joint that is
+/// told to move does not. It is believed only if the joint comes away from it, by `back_off`, and
+/// finds it again with a fifth of the velocity at the same place: a sensor that is dead, a brake
+/// that did not open and a load that gives way do not pass for one.
 ///
 /// Whenever it begins to move or turns round, what drives it has to overcome its friction first,
 /// and what has pushed it the other way: until it must have (`lead`, `patience_s`) the joint may be
@@ -128,10 +129,12 @@ class HomingMotion {
   Config config_;
   StillWatch still_;
   Stage stage_ = Stage::kSearching;
-  bool gives_up_ = false;     ///< comes to rest at the end of its travel
-  bool was_closed_ = false;   ///< the switch, since it turned round
-  bool found_again_ = false;  ///< the stop
-  double target_ = 0.0;       ///< velocity
+  bool gives_up_ = false;            ///< comes to rest at the end of its travel
+  bool was_closed_ = false;          ///< the switch, since it turned round
+  std::optional<double> opened_at_;  ///< the switch, if it is open since
+  std::optional<double> mark_;       ///< the first one since then
+  bool found_again_ = false;         ///< the stop
+  double target_ = 0.0;              ///< velocity
   double velocity_ = 0.0;
   double desired_ = 0.0;
   double touched_ = 0.0;  ///< the stop, there

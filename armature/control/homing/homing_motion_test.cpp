@@ -86,7 +86,11 @@ TEST(HomingMotion, FindsTheEdgeWhereItBeginsAlsoIfItOpensBeforeItMoves) {
   HomingMotion motion = HomingMotion::make(config_of(HomeSign::kSwitch)).value();
   motion.begin(true);
   Status status = Status::kGoesOn;
-  for (int k = 0; k < 200 && status == Status::kGoesOn; ++k) status = motion.step({.way = 1e-4});
+  double way = 1e-4;
+  for (int k = 0; k < 200 && status == Status::kGoesOn; ++k) {
+    status = motion.step({.way = way});
+    way += motion.velocity() * kPeriod;
+  }
   EXPECT_EQ(status, Status::kHome);
   EXPECT_EQ(motion.found_at(), 1e-4);
 }
@@ -110,6 +114,13 @@ TEST(HomingMotion, FindsTheMarkBehindTheSwitch) {
   EXPECT_NEAR(joint.motion.found_at(), -0.4, 1e-12) << "and not one on the way there";
 }
 
+TEST(HomingMotion, FindsTheMarkThatIsCloseBehindTheSwitch) {
+  Joint joint = joint_that_looks_for(HomeSign::kSwitchThenIndex);
+  joint.closed = [](double way) { return way < -0.4005; };
+  ASSERT_EQ(joint.run(), Status::kHome);
+  EXPECT_NEAR(joint.motion.found_at(), -0.4, 1e-12) << "and not the next one";
+}
+
 TEST(HomingMotion, FindsAHardStopAndComesAwayFromIt) {
   Joint joint = joint_that_looks_for(HomeSign::kHardStop);
   joint.low_stop = -0.7;
@@ -129,6 +140,7 @@ struct StickyJoint {
   double friction = 0.0;
   double velocity = -0.2;
   double back_emf = 0.0;
+  double cam = 10.0;  ///< length of it, from -0.5 on
 
   double at = 0.0;
   double speed = 0.0;
@@ -159,7 +171,8 @@ struct StickyJoint {
     double before = 0.0;
     for (double time = 0.0; time < 150.0; time += kPeriod) {
       const double way = std::round(at / 1e-4) * 1e-4;
-      const Status status = motion.step({.way = way, .switch_closed = way < -0.5});
+      const Status status =
+          motion.step({.way = way, .switch_closed = way < -0.5 && way > -0.5 - cam});
       if (status != Status::kGoesOn) return status;
       const double slower = motion.velocity() - (way - before) / kPeriod;
       before = way;
@@ -191,6 +204,18 @@ TEST(HomingMotion, FrictionIsNoHardStopAndNothingThatBlocks) {
       HomingMotion motion = moved.motion_to(sign);
       EXPECT_EQ(moved.run(motion), Status::kHome);
       EXPECT_NEAR(motion.found_at(), sign == HomeSign::kSwitch ? -0.5 : -0.7, 1e-3);
+    }
+  }
+}
+
+TEST(HomingMotion, FindsTheRightEdgeOfACamThatItPassesWhileItTurnsRound) {
+  for (const double stiffness : {8.0, 15.0, 30.0, 150.0}) {
+    for (const double cam : {0.003, 0.01, 0.02, 0.04}) {
+      SCOPED_TRACE(::testing::Message() << stiffness << ", cam " << cam);
+      StickyJoint joint{.stiffness = stiffness, .damping = 3.0, .friction = 0.1, .cam = cam};
+      HomingMotion motion = joint.motion_to(HomeSign::kSwitch);
+      EXPECT_EQ(joint.run(motion), Status::kHome);
+      EXPECT_NEAR(motion.found_at(), -0.5, 1e-3);
     }
   }
 }

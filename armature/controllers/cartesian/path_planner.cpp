@@ -23,7 +23,7 @@ namespace {
 
 constexpr base::Duration kLongestPlannersPeriod = std::chrono::milliseconds(20);
 constexpr std::size_t kFewestJoints = 6;
-constexpr double kAtRest = 1e-9;  // rad/s
+constexpr double kAtRest = 1e-9;        // rad/s
 constexpr double kLongestPath = 100.0;  // m: no arm reaches so far, and planning would take long
 
 double in_thousandths(double number) { return std::round(number * 1e3) / 1e3; }
