@@ -148,24 +148,6 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
 }
 
-TEST(In, WhatIsLargerThanFourMegabytesIsDropped) {
-  Talk talk(
-      deployment("ros: Numbers:\n    model: Float64MultiArray\n    properties: {topic: wanted, "
-                 "size: 1, lower: [-1], upper: [1]}\n"));
-  auto& arrays =
-      *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
-  std_msgs::msg::dds_::Float64MultiArray_ array;
-  array.data({0.5});
-  talk.send(arrays, array, "Numbers");
-  const std::uint64_t received = talk.count("Numbers", "Received");
-  array.data(std::vector<double>(600'000));
-  arrays.write(&array);
-  array.data({0.25});
-  talk.send(arrays, array, "Numbers");
-  EXPECT_GT(talk.count("Numbers", "Received"), received) << "what comes after it is heard";
-  EXPECT_EQ(talk.count("Numbers", "Refused"), 0u) << "it came as far as the component";
-}
-
 /// Of RTPS, with a submessage that is shorter than any of its kind.
 void send_malformed(int times) {
   const std::vector<unsigned char> packet{'R',  'T', 'P', 'S', 2, 1, 1,  0x10, 1,  2,
