@@ -38,6 +38,23 @@ deploy::Deployment load(const std::string& file, const std::string& libraries,
   return deploy::load_deployment(file, options);
 }
 
+/// Between the bounds of its bucket, which are a quarter apart: by how many of the bucket are
+/// below.
+double median_ticks(const rt::DistributionSummary& cycles) {
+  const double half = 0.5 * static_cast<double>(cycles.count);
+  double below = 0.0;
+  for (std::size_t i = 1; i < cycles.buckets.size(); ++i) {
+    const auto here = static_cast<double>(cycles.buckets[i]);
+    if (below + here >= half && here > 0.0) {
+      const auto begin = static_cast<double>(rt::Distribution::upper_bound_of(i - 1));
+      const auto end = static_cast<double>(rt::Distribution::upper_bound_of(i));
+      return begin + (end - begin) * (half - below) / here;
+    }
+    below += here;
+  }
+  return static_cast<double>(cycles.most);
+}
+
 /// Runs it for a turn; false, and says why, if it does not run.
 bool take_turn(Side& side, const std::string& thread, const std::string& libraries,
                const std::vector<std::string>& overrides) {
@@ -61,8 +78,7 @@ bool take_turn(Side& side, const std::string& thread, const std::string& librari
     std::fprintf(stderr, "'%s' has no thread '%s'\n", side.file.c_str(), thread.c_str());
     return false;
   }
-  side.medians_us.push_back(static_cast<double>(driving->cycle_ticks.percentile(0.5)) *
-                            platform::tick_period_ns() * 1e-3);
+  side.medians_us.push_back(median_ticks(driving->cycle_ticks) * platform::tick_period_ns() * 1e-3);
   side.cycles += driving->cycles_run;
   side.skipped += driving->cycles_skipped;
   return true;
