@@ -21,7 +21,7 @@ namespace armature::remote {
 class PeerView final : public inspect::View {
  public:
   /// @param peer  outlives it
-  /// @param inspector  as which it hosts the inspector: a studio has another name for its run's
+  /// The inspector is named as the peer hosts it: a studio has another name for its run's.
   explicit PeerView(ride::Peer& peer);
   PeerView(ride::Peer& peer, const std::string& inspector);
   ~PeerView() override;
