@@ -152,8 +152,8 @@ std::string summary_text(const nlohmann::json& summary, const char* what) {
 
 /// When the first of the two ended.
 base::Time end_in(const nlohmann::json& one, const nlohmann::json& other) {
-  constexpr double kLongest = 1e9;  // seconds
-  double end_s = kLongest;
+  constexpr double kLongestRun = 1e9;  // seconds
+  double end_s = kLongestRun;
   for (const nlohmann::json* const each : {&one, &other}) {
     const nlohmann::json duration = each->value("duration_s", nlohmann::json());
     if (duration.is_number()) end_s = std::clamp(duration.get<double>(), 0.0, end_s);

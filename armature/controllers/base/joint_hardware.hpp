@@ -79,7 +79,7 @@ class JointHardware : public component::Component {
   /// it has between the last two readings [rad]; nan if it has not.
   virtual double since_index() const { return std::numeric_limits<double>::quiet_NaN(); }
   /// Of hardware that bounds the effort of a drive that follows velocities or positions.
-  /// What the drive gives from now on is at most that, > 0 [Nm at the motor]; infinite: what it can.
+  /// What the drive gives from now on is at most that, > 0 [Nm at the motor]; infinite: all.
   virtual bool bound_effort(double /*most*/) { return false; }
 
   /// A sample was lost, and what moved meanwhile with it: where the joint is, is not known until
