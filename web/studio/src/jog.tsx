@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useState } from "react";
 import type { Component } from "./checked.ts";
-import { message_of } from "./backend.ts";
 import { useHeld } from "./held.ts";
 import { press_jog } from "./jogging.ts";
-import { inspector } from "./run.ts";
 import { fixed_text, watch } from "./values.ts";
 
 const kSlow = 0.1;  ///< of the largest velocity, to begin with
