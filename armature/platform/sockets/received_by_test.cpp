@@ -33,7 +33,7 @@ class Receiver {
     std::array<char, IFNAMSIZ> name{};
     socklen_t size = name.size();
     getsockopt(socket_, SOL_SOCKET, SO_BINDTODEVICE, name.data(), &size);
-    return {name.data(), size == 0 ? 0 : size - 1};
+    return name.data();
   }
 
   int port = 0;
@@ -45,7 +45,6 @@ class Receiver {
 TEST(ReceivedBy, OnlySocketsAtThePortsAreGivenWhatComesByTheInterface) {
   const Receiver inside;
   const Receiver outside;
-  if (!outside.interface().empty()) GTEST_SKIP() << "an emulator that tells of no interfaces";
   const auto kept = receive_only_by("lo", {inside.port, inside.port});
   ASSERT_TRUE(kept) << kept.error();
   EXPECT_EQ(kept.value(), 1);
