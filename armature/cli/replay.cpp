@@ -234,10 +234,7 @@ void add_changed(const std::vector<replay::ChangedOutcome>& changed, replay::Com
 void warn_of_changed(const std::vector<replay::ChangedOutcome>& changed, const Console& console) {
   for (const replay::ChangedOutcome& each : changed) {
     console.say(LogLevel::kWarning, "at " + seconds_text(each.act.time) + ", " + name_of(each.act) +
-                                        ": " + each.is +
-                                        "; when it was "
-                                        "recorded, " +
-                                        each.was);
+                                        ": " + each.is + "; when it was recorded, " + each.was);
   }
 }
 

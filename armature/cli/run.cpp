@@ -2,8 +2,6 @@
 #include "armature/cli/run.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,11 +10,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "armature/analysis/schedule.hpp"
+#include "armature/base/hash64.hpp"
+#include "armature/base/joined.hpp"
 #include "armature/cli/companions.hpp"
 #include "armature/cli/experiment.hpp"
 #include "armature/cli/load.hpp"
@@ -112,17 +111,6 @@ report::RunFacts facts_of(const RunArguments& arguments) {
   return facts;
 }
 
-/// 64-bit FNV-1a, by which a text is known again.
-std::string hash_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char one : text) {
-    hash = (hash ^ static_cast<unsigned char>(one)) * 0x100000001b3u;
-  }
-  std::array<char, 17> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return digits.data();
-}
-
 /// For recordings: by which deployment, program and machine they were made.
 std::map<std::string, std::string> about_of(const RunArguments& arguments) {
   constexpr std::size_t kLargestDeployment = 16 << 20;
@@ -131,19 +119,20 @@ std::map<std::string, std::string> about_of(const RunArguments& arguments) {
                                            {"machine", platform::machine_text()},
                                            {"simulated", arguments.simulated ? "true" : "false"}};
   if (const auto text = platform::read_file(arguments.load.file, kLargestDeployment)) {
-    about["deployment_fnv1a_64"] = hash_of(text.value());
+    about["deployment_fnv1a_64"] = base::hash64_text(text.value());
   }
-  std::string set;
-  for (const std::string& one : arguments.load.overrides) set += (set.empty() ? "" : "\n") + one;
-  if (!set.empty()) about["set"] = set;
+  if (!arguments.load.overrides.empty()) {
+    about["set"] = base::joined(arguments.load.overrides, "\n");
+  }
   return about;
 }
 
 void tell_recorders(const exec::Blueprint& blueprint, const RunArguments& arguments) {
+  const std::map<std::string, std::string> about = about_of(arguments);
   for (const exec::ComponentEntry& entry : blueprint.components) {
     for (component::Observer* const observer :
          component::interface_of(*entry.component).observers) {
-      observer->set_about(about_of(arguments));
+      observer->set_about(about);
     }
   }
 }

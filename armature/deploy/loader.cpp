@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "armature/base/joined.hpp"
 #include "armature/base/near_name.hpp"
 #include "armature/component/library.hpp"
 #include "armature/document/value_tree.hpp"
@@ -44,12 +45,6 @@ void add_beside_program(std::vector<std::string>& folders) {
 
 std::string file_name(std::string_view library) {
   return std::string(kPrefix) + std::string(library) + std::string(kSuffix);
-}
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string result;
-  for (const std::string& text : texts) result += (result.empty() ? "" : ", ") + text;
-  return result;
 }
 
 bool is_there(const std::string& file) {
@@ -154,7 +149,8 @@ base::Result<std::string> find_library(std::string_view name,
     const std::string file = (fs::path(folder) / file_name(name)).string();
     if (is_there(file)) return file;
   }
-  std::string text = what + " was not found: no " + file_name(name) + " in " + joined(folders);
+  std::string text =
+      what + " was not found: no " + file_name(name) + " in " + base::joined(folders);
   const std::string near = base::near_name(name, available_libraries(folders));
   text += near.empty() ? "; build it, or name its folder with -L or " + std::string(kPathVariable)
                        : "; did you mean " + in_quotes(near) + "?";

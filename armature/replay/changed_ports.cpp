@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/replay/changed_ports.hpp"
 
+#include "armature/base/utf8.hpp"
 #include "armature/component/interface.hpp"
 
 namespace armature::replay {
@@ -12,7 +13,7 @@ constexpr std::size_t kLongest = 80;
 std::string cut_off(std::string text) {
   if (text.size() <= kLongest) return text;
   std::size_t end = kLongest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
+  while (end > 0 && base::continues_character(text[end])) --end;
   return text.substr(0, end) + "...";
 }
 

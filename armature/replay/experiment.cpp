@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/replay/experiment.hpp"
 
-#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -47,18 +46,6 @@ Experiment experiment_in(const Json& json) {
 }
 
 }  // namespace
-
-std::string hash_text(std::string_view content) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : content) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x00000100000001b3u;
-  }
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(hash >> shift) & 15];
-  return text;
-}
 
 base::Result<void> write_experiment(const std::string& folder, const Experiment& experiment) {
   const Json json{{"armature", experiment.version},

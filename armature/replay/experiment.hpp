@@ -42,9 +42,6 @@ struct Experiment {
   std::string outline;  ///< runner::outline of what ran
 };
 
-/// Of 64 bits, as hexadecimal digits: equal contents have equal hashes.
-std::string hash_text(std::string_view content);
-
 base::Result<void> write_experiment(const std::string& folder, const Experiment& experiment);
 
 /// The error says what the folder of a run has, and what was found.

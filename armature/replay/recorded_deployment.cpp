@@ -9,7 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "armature/base/quoted.hpp"
+#include "armature/base/hash64.hpp"
+#include "armature/base/joined.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/deploy/loader.hpp"
@@ -60,7 +61,7 @@ std::vector<UsedLibrary> used_libraries(const document::Document& document,
     const auto file = deploy::find_library(library.name, folders);
     if (!file || std::ranges::find(used, library.name, &UsedLibrary::name) != used.end()) continue;
     const auto content = platform::read_file(file.value());
-    used.push_back({library.name, file.value(), content ? hash_text(content.value()) : ""});
+    used.push_back({library.name, file.value(), content ? base::hash64_text(content.value()) : ""});
   }
   return used;
 }
@@ -90,8 +91,8 @@ std::vector<std::string> restore_files(const Experiment& experiment, const std::
   for (const auto& [path, content] : experiment.files) {
     const auto present = platform::read_file(path, kLargestFile);
     if (present && present.value() == content) continue;
-    const std::string copy =
-        out + "/was-" + hash_text(path).substr(0, 8) + '-' + fs::path(path).filename().string();
+    const std::string copy = out + "/was-" + base::hash64_text(path).substr(0, 8) + '-' +
+                             fs::path(path).filename().string();
     const auto written = platform::write_file(copy, content);
     if (!written) {
       diagnostics.error({}, written.error());
@@ -169,12 +170,6 @@ std::string folder_of(const std::string& file) {
   return fs::weakly_canonical(fs::absolute(file, ignored), ignored).parent_path().string();
 }
 
-std::string with_commas(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 /// The folder of a run may be somebody else's: it does not say which code is run. Libraries are
 /// those of `-L` and of the usual places, but for the one beside the deployment.
 void expect_trusted_libraries(const Experiment& experiment, const document::Document& document,
@@ -183,12 +178,12 @@ void expect_trusted_libraries(const Experiment& experiment, const document::Docu
   std::vector<std::string> trusted = deploy::library_folders(first, "");
   trusted.pop_back();
   for (std::string& folder : trusted) folder = folder_of(folder + "/any");
+  const std::vector<std::string> searched = deploy::library_folders(first, document.file);
+  const std::string used = base::joined(experiment.library_folders);
+  const std::string hint =
+      used.empty() ? "name its folder with -L" : "name its folder with -L; the run had -L " + used;
   for (const document::Reference& library : document.libraries) {
-    const auto file =
-        deploy::find_library(library.name, deploy::library_folders(first, document.file));
-    const std::string used = with_commas(experiment.library_folders);
-    const std::string hint = used.empty() ? "name its folder with -L"
-                                          : "name its folder with -L; the run had -L " + used;
+    const auto file = deploy::find_library(library.name, searched);
     if (!file) {
       diagnostics.error(library.where, file.error(), hint);
     } else if (std::ranges::find(trusted, folder_of(file.value())) == trusted.end()) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runner/fingerprint.hpp"
 
-#include <string_view>
-
+#include "armature/base/hash64.hpp"
 #include "armature/base/time.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/component/properties/property.hpp"
@@ -13,21 +12,12 @@
 namespace armature::runner {
 namespace {
 
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x00000100000001b3u;
-  }
-  return hash;
-}
-
 /// The file may lie elsewhere than when the application was checked, but has to say the same.
 std::string value_text(const component::PropertyBase& property) {
   std::string text = types::to_text(property.type(), property.data());
   if (property.type().kind != types::Kind::kText || !text.starts_with('/')) return text;
   const auto content = platform::read_file(text);
-  return content ? "a file " + std::to_string(hash_of(content.value())) : text;
+  return content ? "a file " + std::to_string(base::fnv1a_64(content.value())) : text;
 }
 
 std::string activity_text(const exec::Activity& activity) {
@@ -116,7 +106,7 @@ std::string outline(const exec::Blueprint& blueprint, const exec::ApplicationOpt
 
 std::uint64_t fingerprint(const exec::Blueprint& blueprint,
                           const exec::ApplicationOptions& options) {
-  return hash_of(outline(blueprint, options));
+  return base::fnv1a_64(outline(blueprint, options));
 }
 
 }  // namespace armature::runner

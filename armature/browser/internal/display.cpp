@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "armature/base/utf8.hpp"
+
 namespace armature::browser::internal {
 namespace {
 
@@ -30,8 +32,7 @@ struct ColumnCounter {
 
   void add(char c) {
     if (c == '\x1b') in_escape = true;
-    const bool continues = (static_cast<unsigned char>(c) & 0xc0u) == 0x80u;
-    if (!in_escape && !continues) ++columns;
+    if (!in_escape && !base::continues_character(c)) ++columns;
     if (c == 'm') in_escape = false;
   }
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "armature/base/joined.hpp"
 #include "armature/base/near_name.hpp"
 #include "armature/base/seconds.hpp"
 
@@ -35,12 +36,6 @@ void add_part(std::string& text, const std::string& part) {
   text += (text.empty() ? "" : "; ") + part;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::string about(const PropertyDescription& property) {
   std::string text = inspect::doc_with_values(property.doc, property.values);
   add_part(text, property.type);
@@ -59,7 +54,7 @@ std::string about_port(const PortDescription& port, const char* direction) {
   std::string text = inspect::doc_with_values(port.doc, port.values);
   const std::string size = port.size ? " of " + std::to_string(*port.size) + " elements" : "";
   add_part(text, port.type + size);
-  add_part(text, port.peers.empty() ? "not connected" : direction + joined(port.peers));
+  add_part(text, port.peers.empty() ? "not connected" : direction + base::joined(port.peers));
   return text;
 }
 
@@ -99,7 +94,7 @@ std::string about(const OperationDescription& operation) {
 
 std::string about(const EventDescription& event) {
   std::string text = event.doc;
-  if (!event.subscribers.empty()) add_part(text, "told " + joined(event.subscribers));
+  if (!event.subscribers.empty()) add_part(text, "told " + base::joined(event.subscribers));
   return text;
 }
 
@@ -158,7 +153,7 @@ std::string state_machines(const Paper& paper, const ComponentDescription& compo
     std::string what = machine.doc;
     std::vector<std::string> states;
     for (const auto& state : machine.states) states.push_back(state.path);
-    if (!states.empty()) add_part(what, "states " + joined(states));
+    if (!states.empty()) add_part(what, "states " + base::joined(states));
     const std::string where = machine.current.empty() ? ", in no state" : ", in " + machine.current;
     text += entry(paper, machine.name + where, what);
   }
