@@ -16,6 +16,9 @@ namespace armature::platform {
 /// @thread the controlling one, before it makes others: the kernel's wall is that of its threads
 base::Result<void> write_only_in(const std::string& folder);
 
+/// Whether `path` is `folder` or in it, by whatever names and links; false if that cannot be found.
+bool lies_in(const std::string& path, const std::string& folder);
+
 /// The error says that `path` lies outside of the folder to which writing is confined.
 base::Result<void> expect_inside(const std::string& path);
 

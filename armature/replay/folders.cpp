@@ -13,6 +13,7 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/exec/run_end.hpp"
+#include "armature/platform/confinement.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/record/mcap_reader.hpp"
 
@@ -161,15 +162,6 @@ base::Time end_in(const nlohmann::json& one, const nlohmann::json& other) {
   return base::Time{} + base::from_seconds(end_s);
 }
 
-/// By whatever names and links.
-bool lies_in(const fs::path& inner, const fs::path& outer) {
-  std::error_code failure;
-  const fs::path whole = fs::weakly_canonical(inner, failure);
-  const fs::path around = fs::weakly_canonical(outer, failure);
-  return std::mismatch(around.begin(), around.end(), whole.begin(), whole.end()).first ==
-         around.end();
-}
-
 }  // namespace
 
 bool has_recordings(const std::string& folder) { return !recordings_in(folder).empty(); }
@@ -225,7 +217,7 @@ base::Time end_of_recordings(const std::string& folder) {
 
 base::Result<void> make_place(const std::string& folder, const std::string& run) {
   std::error_code failure;
-  if (lies_in(run, folder)) {
+  if (platform::lies_in(run, folder)) {
     return base::Error{"'" + folder +
                        "' has the recorded run in it, and would be emptied: name an "
                        "empty or a new folder with -o"};
