@@ -2,12 +2,11 @@
 #include "armature/deploy/internal/operator_inputs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "armature/base/unit.hpp"
+#include "armature/component/checking/efforts.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/document/value_tree.hpp"
 
@@ -17,40 +16,6 @@ using namespace document;
 namespace {
 
 using exec::Index;
-
-/// Voltage, current, force, torque or power, whatever the prefix.
-bool is_effort(std::string_view text) {
-  constexpr std::string_view kOr = " or ";  // of axes of both kinds: "Nm or N"
-  if (const auto at = text.find(kOr); at != std::string_view::npos) {
-    return is_effort(text.substr(0, at)) || is_effort(text.substr(at + kOr.size()));
-  }
-  const auto unit = base::parse_unit(text);
-  if (!unit) return false;
-  return std::ranges::any_of(std::array{"V", "A", "N", "N m", "W"}, [&](const char* effort) {
-    return base::parse_unit(effort).value().same_kind(unit.value());
-  });
-}
-
-/// A field of it, at any depth, is an effort.
-bool has_effort(const types::Type& type) {
-  if (type.element != nullptr) return has_effort(*type.element);
-  return std::ranges::any_of(type.fields, [](const types::Field& field) {
-    return is_effort(field.unit) || has_effort(*field.type);
-  });
-}
-
-/// `N m` of `torque [N m]`; empty if it has no unit.
-std::string_view unit_of(std::string_view argument) {
-  const std::size_t open = argument.find(" [");
-  if (open == std::string_view::npos || !argument.ends_with(']')) return {};
-  return argument.substr(open + 2, argument.size() - open - 3);
-}
-
-bool takes_effort(const component::OperationBase& operation) {
-  return std::ranges::any_of(operation.signature().arguments, [](const auto& each) {
-    return each.type->sealed || is_effort(unit_of(each.name)) || has_effort(*each.type);
-  });
-}
 
 class OperatorInputCheck {
  public:
@@ -102,8 +67,7 @@ class OperatorInputCheck {
       return "'" + component(i).name() + "." + std::string(member) + "'";
     };
     const auto of_port = [&](const component::PortBase& port) {
-      const bool moves = port.type().sealed || is_effort(port.unit()) || has_effort(port.type());
-      return moves ? named(port.name()) : std::string();
+      return component::has_effort(port) ? named(port.name()) : std::string();
     };
     for (const component::InputPortBase* port : interface.inputs) {
       if (const std::string what = of_port(*port); !what.empty()) return what;
@@ -112,7 +76,7 @@ class OperatorInputCheck {
       if (const std::string what = of_port(*port); !what.empty()) return what;
     }
     for (const component::OperationBase* operation : interface.operations) {
-      if (takes_effort(*operation)) return named(operation->name());
+      if (component::takes_effort(*operation)) return named(operation->name());
     }
     if (!interface.holdings.empty()) {
       return "'" + component(i).name() + "', which holds something";

@@ -12,6 +12,7 @@
 #include "armature/base/unit.hpp"
 #include "armature/component/author.hpp"
 #include "armature/component/face.hpp"
+#include "armature/component/operations/argument_unit.hpp"
 #include "armature/inspect/acts.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/runner/run_options.hpp"
@@ -99,13 +100,6 @@ types::Value value_for(const Member& member, py::handle value) {
       member.property != nullptr && member.property->is_sign() && PyBool_Check(value.ptr());
   if (inverts) return from_python(value, types::type_of<bool>(), name);
   return from_python(in_unit(member.unit(), member.type(), value, name), member.type(), name);
-}
-
-/// `time [s]` has the unit `s`.
-std::string_view unit_in(std::string_view argument) {
-  const std::size_t begin = argument.rfind('[');
-  if (begin == std::string_view::npos || !argument.ends_with(']')) return {};
-  return argument.substr(begin + 1, argument.size() - begin - 2);
 }
 
 bool includes(const std::vector<exec::Casualty>& all, const exec::Casualty& one) {
@@ -351,8 +345,8 @@ std::vector<types::Value> Simulation::arguments_of(const Member& operation,
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::string name = inspect::argument_name(operation, i);
     const types::Type& type = *wanted[i].type;
-    values.push_back(
-        from_python(in_unit(unit_in(wanted[i].name), type, given[i], name), type, name));
+    values.push_back(from_python(
+        in_unit(component::argument_unit(wanted[i].name), type, given[i], name), type, name));
   }
   return values;
 }

@@ -2,13 +2,12 @@
 #include "bridges/ros2/internal/reach_check.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "armature/base/unit.hpp"
+#include "armature/component/checking/efforts.hpp"
 #include "armature/component/events/event.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/component/operations/operation.hpp"
@@ -20,49 +19,12 @@ namespace {
 
 using component::Component;
 
-bool is_effort(std::string_view text) {
-  constexpr std::string_view kOr = " or ";  // of axes of both kinds: "Nm or N"
-  if (const auto at = text.find(kOr); at != std::string_view::npos) {
-    return is_effort(text.substr(0, at)) || is_effort(text.substr(at + kOr.size()));
-  }
-  const auto unit = base::parse_unit(text);
-  if (!unit) return false;
-  return std::ranges::any_of(std::array{"V", "A", "N", "N m", "W"}, [&](const char* effort) {
-    return base::parse_unit(effort).value().same_kind(unit.value());
-  });
-}
-
-bool has_effort(const types::Type& type) {
-  if (type.sealed) return true;
-  if (type.element != nullptr) return has_effort(*type.element);
-  return std::ranges::any_of(type.fields, [](const types::Field& field) {
-    return is_effort(field.unit) || has_effort(*field.type);
-  });
-}
-
-bool moves(const component::PortBase& port) {
-  return is_effort(port.unit()) || has_effort(port.type());
-}
-
 /// Those of motions, which are not the operator's alone.
 bool takes_commands(const Component& component) {
   return std::ranges::any_of(component::interface_of(component).operations,
                              [](const component::OperationBase* each) {
                                return each->is_command() && !each->is_by_operator();
                              });
-}
-
-/// `N m` of `torque [N m]`; empty if it has no unit.
-std::string_view unit_of(std::string_view argument) {
-  const std::size_t open = argument.find(" [");
-  if (open == std::string_view::npos || !argument.ends_with(']')) return {};
-  return argument.substr(open + 2, argument.size() - open - 3);
-}
-
-bool takes_effort(const component::OperationBase& operation) {
-  return std::ranges::any_of(operation.signature().arguments, [](const auto& each) {
-    return is_effort(unit_of(each.name)) || has_effort(*each.type);
-  });
 }
 
 class Reach {
@@ -99,11 +61,11 @@ class Reach {
   }
 
   void enter(const component::InputPortBase& input) {
-    if (moves(input)) return refuse(input.owner(), input.name());
+    if (component::has_effort(input)) return refuse(input.owner(), input.name());
     enter(input.owner());
   }
   void enter(const component::OperationBase& operation) {
-    if (takes_effort(operation)) return refuse(operation.owner(), operation.name());
+    if (component::takes_effort(operation)) return refuse(operation.owner(), operation.name());
     enter(operation.owner());
   }
   void enter(const Component& component) {
