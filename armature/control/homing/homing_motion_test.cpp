@@ -285,22 +285,24 @@ TEST(HomingMotion, ASensorThatIsDeadIsNoHardStop) {
   EXPECT_EQ(joint.motion.stage(), HomingMotion::Stage::kBackingOff);
 }
 
+/// It is stopped at -0.7, and the second time at `again`.
+void stop_elsewhere(Joint& joint, double again) {
+  joint.obey = [&joint, again](double way, double velocity) {
+    const bool comes_again = joint.motion.stage() == HomingMotion::Stage::kFindingAgain;
+    return std::max(comes_again ? again : -0.7, way + velocity * kPeriod);
+  };
+}
+
 TEST(HomingMotion, AStopThatIsElsewhereTheSecondTimeIsNone) {
   Joint joint = joint_that_looks_for(HomeSign::kHardStop);
-  joint.obey = [&joint](double way, double velocity) {
-    const bool again = joint.motion.stage() == HomingMotion::Stage::kFindingAgain;
-    return std::max(again ? -0.72 : -0.7, way + velocity * kPeriod);
-  };
+  stop_elsewhere(joint, -0.72);
   EXPECT_EQ(joint.run(), Status::kStopGaveWay);
   EXPECT_GT(joint.way, -0.715) << "as soon as it is beyond";
 }
 
 TEST(HomingMotion, AStopThatIsShortOfItTheSecondTimeIsNone) {
   Joint joint = joint_that_looks_for(HomeSign::kHardStop);
-  joint.obey = [&joint](double way, double velocity) {
-    const bool again = joint.motion.stage() == HomingMotion::Stage::kFindingAgain;
-    return std::max(again ? -0.68 : -0.7, way + velocity * kPeriod);
-  };
+  stop_elsewhere(joint, -0.68);
   EXPECT_EQ(joint.run(), Status::kStopGaveWay);
 }
 

@@ -167,10 +167,9 @@ void Joint::be_homed() {
   }
   unknown_ = Unknown::kNothing;
   kept_.be_sure();
-  home_.complete();
+  homed_now_ = true;
   switch_off();
-  log_info("homed: it is at {} {}, disarmed", four_digits(measured_.position),
-           units_.position().get() == "m" ? "m" : "rad");
+  tell_homed();
 }
 
 // --- by itself -------------------------------------------------------------------------------
@@ -287,7 +286,6 @@ void Joint::be_at(double position) {
   is_found_ = true;
   kept_.be_sure();
   homed_.assign(true);
-  homed_now_ = true;
 }
 
 /// Nothing moves, and nothing is switched on: the permit goes no farther than to say so.
@@ -305,7 +303,7 @@ void Joint::tell_homed() {
   home_.complete();
   const char* const unit = units_.position().get() == "m" ? "m" : "rad";
   log_info("homed: it is at {} {}, disarmed", four_digits(measured_.position), unit);
-  if (!homing_.is_of_absolute_sensor()) return;
+  if (homes_by_hardware() || !homing_.is_of_absolute_sensor()) return;
   Reason line("to keep that, write into the deployment:  ");
   append_number(line.append(name()).append(": {override: true, properties: {InitialPos: "),
                 absolute_->offset());
