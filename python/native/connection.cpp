@@ -100,21 +100,9 @@ void bind_status_of_commands(py::module_& module) {
       });
 }
 
-}  // namespace
-
-void bind_connection(py::module_& module) {
-  bind_status_of_commands(module);
-  using Texts = std::vector<std::string>;
-  py::class_<Connection>(module, "Connection")
-      .def(py::init([](std::string address, std::string certificate, std::string key,
-                       std::string authority, std::string tokens, double limit) {
-             return connect({std::move(address), std::move(certificate), std::move(key),
-                             std::move(authority), std::move(tokens)},
-                            limit);
-           }),
-           py::arg("address"), py::arg("certificate"), py::arg("key"), py::arg("authority"),
-           py::arg("tokens"), py::arg("limit"))
-      .def_property_readonly("connected", &Connection::connected)
+/// What looks, and changes nothing.
+void bind_questions(py::class_<Connection>& connection) {
+  connection.def_property_readonly("connected", &Connection::connected)
       .def("status",
            [](Connection& self) {
              const auto status = self.ask([](View& view) { return view.status(); });
@@ -141,13 +129,19 @@ void bind_connection(py::module_& module) {
             return self.ask([&](View& view) { return view.log(after); }).lines;
           },
           py::arg("after"))
+      .def("read", &read, py::arg("item"));
+}
+
+/// What is done to the application.
+void bind_acts(py::class_<Connection>& connection) {
+  using Texts = std::vector<std::string>;
+  connection
       .def(
           "change",
           [](Connection& self, const std::string& component, const std::string& change) {
             self.ask([&](View& view) { return view.change(component, change_named(change)); });
           },
           py::arg("component"), py::arg("change"))
-      .def("read", &read, py::arg("item"))
       .def(
           "write",
           [](Connection& self, const std::string& item, const std::string& value) {
@@ -183,6 +177,23 @@ void bind_connection(py::module_& module) {
             return self.ask([&](View& view) { return view.cancel(handle); });
           },
           py::arg("handle"));
+}
+
+}  // namespace
+
+void bind_connection(py::module_& module) {
+  bind_status_of_commands(module);
+  py::class_<Connection> connection(module, "Connection");
+  connection.def(py::init([](std::string address, std::string certificate, std::string key,
+                             std::string authority, std::string tokens, double limit) {
+                   return connect({std::move(address), std::move(certificate), std::move(key),
+                                   std::move(authority), std::move(tokens)},
+                                  limit);
+                 }),
+                 py::arg("address"), py::arg("certificate"), py::arg("key"), py::arg("authority"),
+                 py::arg("tokens"), py::arg("limit"));
+  bind_questions(connection);
+  bind_acts(connection);
 }
 
 }  // namespace armature::python
