@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "armature/document/value_tree.hpp"
 #include "armature/edit/internal/scalar_text.hpp"
 #include "armature/edit/replacement.hpp"
 
@@ -20,7 +19,7 @@ class CopyWriter {
   void visit(const Node& node) {
     if (is_literal(file_, node)) return;
     if (!node.anchor.empty() && !changes_.anchors) drop_anchor(node);
-    if (node.kind == Node::Kind::kScalar && changes_.new_text) rewrite(node);
+    if (node.kind == Node::Kind::kScalar && changes_.new_value) rewrite(node);
     for (const Node* child : node.children) visit(*child);
   }
 
@@ -39,13 +38,12 @@ class CopyWriter {
   }
 
   void rewrite(const Node& node) {
-    const std::optional<std::string> text = changes_.new_text(node);
-    if (!text) return;
+    const std::optional<document::Value> value = changes_.new_value(node);
+    if (!value) return;
     const std::string raw = file_.text().substr(node.begin, node.end - node.begin);
     const std::size_t blank = raw.find(' ');
     const std::size_t tag = raw.starts_with('!') && blank != raw.npos ? blank + 1 : 0;
-    replacements_.push_back(
-        {node.begin + tag, node.end, text_in_place_of(node, document::make_text(*text))});
+    replacements_.push_back({node.begin + tag, node.end, text_in_place_of(node, *value)});
   }
 
   const SourceText& file_;

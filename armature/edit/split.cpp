@@ -92,11 +92,11 @@ std::vector<Piece> pieces_of(const Entry& entry, const WrittenRange& range, cons
 std::string text_of(const Piece& piece, const Entry& entry, bool first) {
   CopyChanges changes;
   changes.anchors = first;  // an anchor is given once
-  changes.new_text = [&](const Node& scalar) -> std::optional<std::string> {
-    if (&scalar == entry.key) return piece.key;
+  changes.new_value = [&](const Node& scalar) -> std::optional<document::Value> {
+    if (&scalar == entry.key) return make_text(piece.key);
     if (!piece.number || document::number_offsets(scalar.text).empty()) return std::nullopt;
     base::Diagnostics ignored;  // the reader of the new text finds it
-    return document::replace_number(scalar.text, *piece.number, {}, ignored);
+    return make_text(document::replace_number(scalar.text, *piece.number, {}, ignored));
   };
   return copied_element(*entry.file, *entry.key, changes);
 }

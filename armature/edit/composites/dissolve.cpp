@@ -37,7 +37,7 @@ class Dissolving {
   std::string copy_of(const Node& first, std::size_t column) {
     CopyChanges changes;
     changes.comment_behind = true;
-    changes.new_text = [&](const Node& scalar) {
+    changes.new_value = [&](const Node& scalar) {
       return instance_.without_parameters(scalar.text);
     };
     const SourceText& from = *instance_.definition_file;

@@ -249,6 +249,33 @@ TEST(Dissolve, LeavesADefinitionThatOthersUse) {
             "  - M.One -> w1.In\n");
 }
 
+TEST(Dissolve, WritesAListInPlaceOfItsParameter) {
+  const std::string text =
+      "composites:\n"
+      "  C:\n"
+      "    parameters: {gains: [1, 2], peers: []}\n"
+      "    components:\n"
+      "      p:\n"
+      "        model: M\n"
+      "        properties:\n"
+      "          Gains: ${gains}\n"
+      "          Peers: \"${peers}\"\n"
+      "components:\n"
+      "  A: {model: C, properties: {gains: [3, 4]}}\n"
+      "  B: {model: C, properties: {gains: [\"${k}\", 4]}}\n"
+      "parameters: {k: 1}\n";
+  EXPECT_NE(edited(text, Dissolve{"A"})
+                .find("  p:\n"
+                      "    model: M\n"
+                      "    properties:\n"
+                      "      Gains: [3, 4]\n"
+                      "      Peers: []\n"),
+            std::string::npos)
+      << edited(text, Dissolve{"A"});
+  EXPECT_NE(refusal(text, Dissolve{"B"}).find("'gains' is computed inside a list or map"),
+            std::string::npos);
+}
+
 TEST(Dissolve, RefusesWhatWouldMeanSomethingElse) {
   const std::string text =
       "composites:\n"

@@ -35,6 +35,12 @@ bool is_usable(const Entry& entry, const std::string& name, Workshop& shop) {
   return false;
 }
 
+/// True if it, or something in it, uses parameters.
+bool is_computed(const Node& node) {
+  return node.text.find("${") != node.text.npos ||
+         std::ranges::any_of(node.children, [](const Node* child) { return is_computed(*child); });
+}
+
 }  // namespace
 
 bool Instance::find_definition(Workshop& shop) {
@@ -74,13 +80,15 @@ bool Instance::find_parameters(Workshop& shop) {
   const Node* given = find_map(*entry, "properties");
   for (const Property& parameter : composite->parameters) {
     const Node* written = find_value(given, parameter.name);
-    const bool computed = written != nullptr && written->text.find("${") != written->text.npos;
-    if (parameter.value.kind != Value::Kind::kText) {
-      shop.refuse(parameter.value.where, "its parameter '" + parameter.name + "' is no plain value",
+    const bool computed = written != nullptr && is_computed(*written);
+    if (computed && written->kind != Node::Kind::kScalar) {
+      shop.refuse(entry->file->place_of(*written),
+                  "its parameter '" + parameter.name + "' is computed inside a list or map",
                   "write it at the parts first");
       return false;
     }
-    parameters.emplace_back(parameter.name, computed ? written->text : parameter.value.text);
+    parameters.emplace_back(parameter.name,
+                            computed ? document::make_text(written->text) : parameter.value);
   }
   for (std::size_t i = 0; given != nullptr && i + 1 < given->children.size(); i += 2) {
     const Node& key = *given->children[i];
@@ -120,16 +128,17 @@ std::optional<Instance> Instance::find(const std::string& name, Workshop& shop) 
   return possible ? std::optional(std::move(instance)) : std::nullopt;
 }
 
-std::optional<std::string> Instance::without_parameters(const std::string& text) const {
+std::optional<Value> Instance::without_parameters(const std::string& text) const {
   std::string result = text;
   for (const auto& [name, value] : parameters) {
     const std::string use = "${" + name + "}";
+    if (text == use) return value;
     for (std::size_t at = result.find(use); at != result.npos; at = result.find(use, at)) {
-      result.replace(at, use.size(), value);
-      at += value.size();
+      result.replace(at, use.size(), value.text);
+      at += value.text.size();
     }
   }
-  return result == text ? std::nullopt : std::optional(result);
+  return result == text ? std::nullopt : std::optional(document::make_text(result));
 }
 
 std::vector<std::string> Instance::part_names() const {

@@ -6,17 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "armature/document/document.hpp"
 #include "armature/edit/source_text.hpp"
 
 /// Entries and items as their file has them, to be written in other places.
 namespace armature::edit::internal {
 
 /// What becomes of a scalar; nothing if it stays.
-using NewText = std::function<std::optional<std::string>(const Node& scalar)>;
+using NewValue = std::function<std::optional<document::Value>(const Node& scalar)>;
 
 /// How a copy of an element differs.
 struct CopyChanges {
-  NewText new_text;             ///< of each scalar but those of `!literal` values
+  NewValue new_value;           ///< of each scalar but those of `!literal` values
   bool anchors = true;          ///< the copy has them, too
   bool comment_behind = false;  ///< on its last line, in block style
 };

@@ -21,7 +21,7 @@ struct Instance {
   std::vector<const ConnectionEntry*> connections;
   ShownMembers shown{nullptr};
   bool is_last = false;  ///< nothing else is made of the definition
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< and what they are here
+  std::vector<std::pair<std::string, document::Value>> parameters;  ///< and what they are here
 
   /// The only one of its entry; errors and nothing if it cannot be dissolved.
   static std::optional<Instance> find(const std::string& name, Workshop& shop);
@@ -29,8 +29,9 @@ struct Instance {
   const std::string& name() const { return composite->name; }
   const std::string& model() const { return composite->model; }
 
-  /// The text without `${name}` of the composite; nothing if it has none.
-  std::optional<std::string> without_parameters(const std::string& text) const;
+  /// The text without `${name}` of the composite, or the list or map that one stands for; nothing
+  /// if it has none.
+  std::optional<document::Value> without_parameters(const std::string& text) const;
 
   /// Its parts as their entries make them.
   std::vector<std::string> part_names() const;

@@ -352,7 +352,12 @@ page_test("a tool jogs along and about the axes of the base or the tool, each wi
   await page.getByLabel("In the axes of the").selectOption("tool");
   await hold("about x forth");
   const all = await called(page);
-  assert.deepEqual(all.filter((one) => /[.]jog\(| = /.test(one)), ["Planner.jog(3, -0.025)", "Planner.jog_frame = tool", "Planner.jog(4, 0.1)"]);
+  assert.deepEqual(all.filter((one) => /[.]jog\(| = /.test(one)), [
+    "Planner.jog_frame = base",
+    "Planner.jog(3, -0.025)",
+    "Planner.jog_frame = tool",
+    "Planner.jog(4, 0.1)",
+  ]);
   assert.ok(all.includes("Planner.keepJogging(3, -0.025)"), all.join());
   assert.equal(all.at(-1), "cancel");
 });
