@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/cli/experiment.hpp"
 
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "armature/replay/experiment.hpp"
@@ -25,11 +23,10 @@ bool ExperimentRecord::begin(const deploy::Deployment& deployment, const RunArgu
   const auto written = replay::write_experiment(
       arguments.output_folder, replay::experiment_of(deployment, std::move(texts_), how));
   if (!written) console.say(rt::LogLevel::kError, written.error());
-  // In real time they would not come again at the same cycles: nothing is added to such a run.
-  std::error_code ignored;
-  std::filesystem::remove(arguments.output_folder + '/' + replay::kActsFile, ignored);
-  if (!arguments.simulated) return written.ok();
-  auto acts = replay::ActsWriter::create(arguments.output_folder);
+  simulated_ = arguments.simulated;
+  auto acts = replay::ActsWriter::create(
+      arguments.output_folder,
+      simulated_ ? replay::ActsWait::kForTheFile : replay::ActsWait::kNot);
   if (!acts) console.say(rt::LogLevel::kError, acts.error());
   if (!written || !acts) return false;
   acts_ = std::move(acts).value();
@@ -39,8 +36,9 @@ bool ExperimentRecord::begin(const deploy::Deployment& deployment, const RunArgu
 bool ExperimentRecord::end(const Console& console) {
   if (acts_ == nullptr) return true;
   const auto closed = acts_->close();
-  if (!closed) console.say(rt::LogLevel::kError, closed.error());
-  return closed.ok();
+  if (closed) return true;
+  console.say(simulated_ ? rt::LogLevel::kError : rt::LogLevel::kWarning, closed.error());
+  return !simulated_;
 }
 
 }  // namespace armature::cli

@@ -31,6 +31,7 @@ class ExperimentRecord {
  private:
   std::map<std::string, std::string> texts_;
   std::unique_ptr<replay::ActsWriter> acts_;
+  bool simulated_ = false;  ///< else it is a pity, but no failure, if it cannot be replayed
 };
 
 }  // namespace armature::cli

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
@@ -17,8 +18,10 @@
 #include "armature/platform/file.hpp"
 #include "armature/remote/interface_file.hpp"
 #include "armature/replay/acts.hpp"
+#include "armature/replay/alone.hpp"
 #include "armature/replay/folders.hpp"
 #include "armature/replay/own_files.hpp"
+#include "armature/replay/recorded_component.hpp"
 #include "armature/replay/reenactment.hpp"
 #include "armature/report/report.hpp"
 #include "armature/report/run_folder.hpp"
@@ -61,14 +64,19 @@ base::Result<Recorded> read_recorded(const ReplayArguments& arguments) {
                        "' has no recording (*.mcap) to compare with: let a Reporter record what is "
                        "of interest, `file: run.mcap`"};
   }
-  if (!recorded.experiment.simulated) {
+  if (!recorded.experiment.simulated && arguments.only.empty()) {
     return base::Error{"'" + arguments.folder +
-                       "' was recorded in real time, whose cycles come as the machine lets them: "
-                       "only runs in simulated time (armature run --sim) are replayed"};
+                       "' was recorded in real time, whose hardware is not here: name the "
+                       "components that are to run again on what was recorded (--only "
+                       "'Controller,PID*')"};
   }
   auto acts = replay::load_acts(arguments.folder);
   if (!acts) return base::Error{acts.error()};
   recorded.acts = std::move(acts).value();
+  // In real time each is done when its time has come, whoever said so.
+  for (replay::RecordedAct& one : recorded.acts) {
+    if (!recorded.experiment.simulated) one.act.attended = false;
+  }
   recorded.out = place_of(arguments);
   recorded.run = arguments.changes.any() ? recorded.out + '/' + kWhatIf : recorded.out;
   return recorded;
@@ -80,6 +88,14 @@ deploy::DeploymentOptions options_for(const ReplayArguments& arguments) {
     options.library_folders.push_back(fs::absolute(folder).string());
   }
   options.read_interface = remote::read_interface;
+  if (!arguments.only.empty()) {
+    options.make_placeholder = [](const document::Component& /*written*/,
+                                  std::unique_ptr<component::Component> prototype)
+        -> base::Result<std::unique_ptr<component::Component>> {
+      return std::unique_ptr<component::Component>(
+          std::make_unique<replay::RecordedComponent>(std::move(prototype)));
+    };
+  }
   options.make_inlets = [](const std::vector<component::InputPortBase*>& inputs)
       -> base::Result<std::unique_ptr<component::Component>> {
     return std::unique_ptr<component::Component>(
@@ -137,6 +153,7 @@ std::vector<replay::Flow> flows_of(const exec::Application& application) {
 
 /// How the run that was done again ended.
 struct Done {
+  base::Time begin{};                ///< of the run's time
   bool to_the_end = false;           ///< of the recorded run
   base::Time until{};                ///< all before it was done
   bool failed = false;               ///< it could not be done
@@ -160,13 +177,16 @@ base::Time last_of_interest(const Recorded& recorded, bool cut_off, const Consol
   return bound;
 }
 
-Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
+/// @param alone  of components that run again without the others; may be null
+Done do_again(const Recorded& recorded, deploy::Deployment& deployment, const replay::Alone* alone,
               const ReplayArguments& arguments, const Console& console) {
   report::RunFacts facts;
   facts.deployment = recorded.experiment.deployment;
   facts.simulated = true;
-  const auto due = arguments.changes.any() ? replay::DueBy::kTime : replay::DueBy::kTurn;
-  replay::Reenactment reenactment(recorded.acts, due);
+  const bool other_turns = arguments.changes.any() || alone != nullptr;
+  replay::Reenactment reenactment(
+      alone == nullptr ? recorded.acts : alone->acts_for(recorded.acts),
+      other_turns ? replay::DueBy::kTime : replay::DueBy::kTurn);
   runner::RunOptions run;
   run.simulated = true;
   run.output_folder = recorded.run;
@@ -185,11 +205,14 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
   if (!view.ok()) return {.failed = true};
   const bool cut_off = reenactment.cut_off();
   const base::Time last = last_of_interest(recorded, cut_off, console);
-  const base::Time asked = arguments.until ? base::Time{} + *arguments.until : base::Time::max();
-  facts.end = reenactment.run(application, std::min(last, asked), [&] { return view.look(); });
-  facts.duration = application.now() - base::Time{};
+  const base::Time begin = alone == nullptr ? base::Time{} : alone->begin();
+  const base::Time asked = arguments.until ? begin + *arguments.until : base::Time::max();
+  facts.end = reenactment.run(
+      application, std::min(last, asked), [&] { return view.look(); }, alone);
+  facts.duration = application.now() - begin;
   facts.wall_time = platform::monotonic_now() - wall_begin;
-  Done done{.to_the_end = facts.end != exec::RunEnd::kConditionMet && application.now() < asked &&
+  Done done{.begin = begin,
+            .to_the_end = facts.end != exec::RunEnd::kConditionMet && application.now() < asked &&
                           (cut_off || application.now() < last),
             .until = application.now(),
             .order = order_of(application),
@@ -202,18 +225,32 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
   return done;
 }
 
-std::string seconds_text(base::Time time) { return base::to_text(time - base::Time{}); }
+/// Of a run in real time, microseconds are enough.
+std::string when(base::Time time, base::Time begin) {
+  return base::to_text(begin == base::Time{} ? time - begin
+                                             : std::chrono::floor<std::chrono::microseconds>(time -
+                                                                                             begin));
+}
 
-void tell(const replay::Difference& first, const Console& console) {
+/// @param begin  of the run's time
+void tell(const replay::Difference& first, base::Time begin, const Console& console) {
   const std::string component(replay::component_of(first.channel));
   const std::string port =
       first.channel.size() > component.size() ? first.channel.substr(component.size() + 1) : "";
-  console.print("first difference at " + seconds_text(first.time) + ", " +
+  console.print("first difference at " + when(first.time, begin) + ", " +
                 (component.empty() ? first.channel
                  : port.empty()    ? "component " + component
                                    : "sample " + std::to_string(first.sequence) + " of component " +
                                       component + ", port " + port) +
                 ":\n  was " + first.was + "\n  is  " + first.is + "\n");
+}
+
+/// When within a cycle something came from another thread is not recorded.
+void tell_how_much(const replay::Comparison& found, const Console& console) {
+  console.print("  " + std::to_string(found.different) + " of " +
+                std::to_string(found.equal + found.different) +
+                " samples differ; in real time what another thread wrote may come a cycle earlier "
+                "or later than it did\n");
 }
 
 std::string name_of(const exec::Act& act) {
@@ -231,22 +268,40 @@ void add_changed(const std::vector<replay::ChangedOutcome>& changed, replay::Com
   }
 }
 
-void warn_of_changed(const std::vector<replay::ChangedOutcome>& changed, const Console& console) {
-  for (const replay::ChangedOutcome& each : changed) {
-    console.say(LogLevel::kWarning, "at " + seconds_text(each.act.time) + ", " + name_of(each.act) +
-                                        ": " + each.is + "; when it was recorded, " + each.was);
+void warn_of_changed(const Done& done, const Console& console) {
+  for (const replay::ChangedOutcome& each : done.changed) {
+    console.say(LogLevel::kWarning, "at " + when(each.act.time, done.begin) + ", " +
+                                        name_of(each.act) + ": " + each.is +
+                                        "; when it was recorded, " + each.was);
   }
 }
 
-int compare(const Recorded& recorded, const Done& done, const Console& console) {
+/// When the run began to end: in real time hooks have times of their own from then on.
+base::Time begin_of_the_end(const Recorded& recorded) {
+  for (const replay::RecordedAct& one : recorded.acts) {
+    if (replay::is_of_the_end(one.act)) return one.act.time;
+  }
+  return base::Time::max();
+}
+
+/// @param alone  of components that ran again without the others; may be null
+int compare(const Recorded& recorded, const Done& done, const replay::Alone* alone,
+            const Console& console) {
   const replay::Losses losses = replay::losses_of(recorded.folder, recorded.experiment);
   replay::ComparisonOptions options;
   options.losses = !losses.known || losses.samples > 0;
   options.until = done.until;
+  if (alone != nullptr) options.channels = &alone->channels();
+  if (!recorded.experiment.simulated) {
+    options.times = false;  // a thread wakes up some time after who sent it something
+    options.until = std::min(options.until, begin_of_the_end(recorded));
+  }
   base::Diagnostics problems;
   replay::Comparison found =
       replay::compare_folders(recorded.folder, recorded.run, done.to_the_end, options, problems);
-  if (done.to_the_end) replay::compare_summaries(recorded.folder, recorded.run, found);
+  if (done.to_the_end && alone == nullptr) {
+    replay::compare_summaries(recorded.folder, recorded.run, found);
+  }
   add_changed(done.changed, found);
   console.show(problems);
   for (const std::string& channel : found.only_recorded) {
@@ -255,7 +310,8 @@ int compare(const Recorded& recorded, const Done& done, const Console& console) 
                                       "deployment has no such port or property");
   }
   if (const auto first = found.first(done.flows, done.order)) {
-    tell(*first, console);
+    tell(*first, done.begin, console);
+    if (!recorded.experiment.simulated) tell_how_much(found, console);
     return kDiffers;
   }
   if (!problems.ok() || !found.only_recorded.empty()) return kFailed;
@@ -326,17 +382,27 @@ int replay(const ReplayArguments& arguments, Console& console) {
       replay::load_recorded(recorded.experiment, changes, recorded.run, loading);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
-  if (!expect_no_outside(deployment.blueprint, console)) return kFailed;
+  std::optional<replay::Alone> alone;
+  if (arguments.only.empty()) {
+    if (!expect_no_outside(deployment.blueprint, console)) return kFailed;
+  } else {
+    base::Diagnostics isolated;
+    alone = replay::Alone::of(arguments.only, recorded.folder, !recorded.experiment.simulated,
+                              deployment, isolated);
+    console.show(isolated);
+    if (!isolated.ok()) return kFailed;
+  }
+  const replay::Alone* const those_alone = alone ? &*alone : nullptr;
   keep_files_in_place(deployment.blueprint);
   base::Diagnostics copied;
   replay::work_on_copies(deployment.blueprint, recorded.experiment, recorded.run, copied);
   console.show(copied);
   if (!copied.ok()) return kFailed;
-  const Done done = do_again(recorded, deployment, arguments, console);
+  const Done done = do_again(recorded, deployment, those_alone, arguments, console);
   if (done.failed) return kFailed;
-  if (changes.any()) warn_of_changed(done.changed, console);
+  if (changes.any()) warn_of_changed(done, console);
   return changes.any() ? show_what_if(recorded, changes, console)
-                       : compare(recorded, done, console);
+                       : compare(recorded, done, those_alone, console);
 }
 
 }  // namespace armature::cli

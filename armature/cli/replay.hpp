@@ -15,6 +15,7 @@ namespace armature::cli {
 struct ReplayArguments {
   std::string folder;  ///< of the run
   replay::Changes changes;
+  std::vector<std::string> only;  ///< components that run again without the others; empty: all
   std::optional<base::Duration> until;
   std::vector<std::string> breakpoints;
   bool step = false;

@@ -25,6 +25,13 @@ void add_replay(const CommandLine& to) {
                    "what if: a deployment whose entries override those of the recorded one")
       ->type_name("FILE");
   command
+      ->add_option("--only", arguments->only,
+                   "runs these components again, alone; what others wrote to them comes from the "
+                   "recording, also of a run in real time: 'Controller,PID*'")
+      ->type_name("NAMES")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
       ->add_option_function<std::string>(
           "--until",
           [arguments](const std::string& text) {

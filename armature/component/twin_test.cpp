@@ -24,7 +24,8 @@ class Original final : public Component {
   using Component::Component;
   Property<int> joints{this, "joints", 2, ""};
   OutputPort<double> position{this, "Position", "where it is", "rad"};
-  OutputPort<std::vector<double>> all{this, "All", "", "", size_of(joints)};
+  Property<std::string> unit{this, "Unit", "rad", ""};
+  OutputPort<std::vector<double>> all{this, "All", "", "", unit_of(unit), size_of(joints)};
   InputPort<double> reference{this, "Reference", "where to go", "rad", on_data<&Original::handle>};
   Operation<double(double)> twice{this, "twice", serve<&Original::serve_twice>, "doubles",
                                   args("x")};
@@ -123,6 +124,7 @@ struct Twins : testing::Test {
 TEST_F(Twins, AreKnownByTheSameNames) {
   EXPECT_EQ(output->name(), "Position");
   EXPECT_EQ(output->unit(), "rad");
+  EXPECT_EQ(all->unit(), "rad") << "which a property of the original says";
   EXPECT_EQ(twice->signature().text(), face(original.twice).signature().text());
   EXPECT_EQ(travel->signature().text(), face(original.travel).signature().text());
   EXPECT_EQ(reached->signature().text(), face(original.reached).signature().text());

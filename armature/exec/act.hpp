@@ -34,6 +34,9 @@ struct Act {
     kBeforeStop,  ///< the end of the run begins; the item is how it has ended (RunEnd)
     kMistake,     ///< likewise, after a mistake of who commanded it
     kEnd,         ///< everything stops
+    // What became of an act that was told before, by its `number`:
+    kRefused,  ///< since `item`
+    kDone,     ///< in real time: at `time`, by the thread of its component
   };
   Kind kind = Kind::kCall;
   std::string component{};
@@ -45,11 +48,12 @@ struct Act {
   /// Of simulated time: so many turns threads had taken by then. Threads take turns at an instant
   /// until nothing is left to do; what is done then belongs between two of them.
   std::uint64_t turn = 0;
+  std::uint64_t number = 0;  ///< kRefused, kDone: the act's, in the order of telling, from 1
   /// By a tool that was attended to (`ApplicationOptions::attend`): what it sends to other threads
   /// arrives with the next instant.
   bool attended = false;
 };
 ARMATURE_ENUM(Act::Kind, kCall, kBegin, kCancel, kSet, kWrite, kStart, kStop, kCancelStop, kRecover,
-              kReset, kCleanUp, kMode, kBeforeStop, kMistake, kEnd);
+              kReset, kCleanUp, kMode, kBeforeStop, kMistake, kEnd, kRefused, kDone);
 
 }  // namespace armature::exec

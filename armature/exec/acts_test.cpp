@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "armature/exec/internal/test_components.hpp"
-#include "armature/exec/refusal.hpp"
 
 namespace armature::exec {
 namespace {
@@ -34,11 +33,11 @@ class Mover final : public component::Component {
 
 class Acts : public testing::Test {
  protected:
-  void begin() {
+  void begin(bool simulated = true) {
     Blueprint blueprint;
     blueprint.add<Mover>("Mover", Activity::periodic(10ms));
     ApplicationOptions options;
-    options.simulated = true;
+    options.simulated = simulated;
     options.acts = [this](const Act& act) { acts.push_back(act); };
     options.attend = [this] {
       if (attend) attend();
@@ -79,12 +78,25 @@ TEST_F(Acts, ThatWereRefusedAreToldAgain) {
   ASSERT_FALSE(application->begin("Mover", "fly", {}).ok());
   ASSERT_FALSE(application->start_component("Nobody"));
   ASSERT_EQ(acts.size(), 7u);
-  EXPECT_FALSE(is_refusal(acts[0]) || is_refusal(acts[1]));
-  EXPECT_TRUE(is_refusal(acts[2]) && is_refusal(acts[4]) && is_refusal(acts[6]));
-  EXPECT_EQ(acts[2].turn, 2u) << "the second act";
-  EXPECT_EQ(acts[4].turn, 3u);
-  EXPECT_EQ(acts[6].turn, 4u);
+  const auto is_refusal = [&](std::size_t i) { return acts[i].kind == Act::Kind::kRefused; };
+  EXPECT_FALSE(is_refusal(0) || is_refusal(1));
+  EXPECT_TRUE(is_refusal(2) && is_refusal(4) && is_refusal(6));
+  EXPECT_EQ(acts[2].number, 2u) << "the second act";
+  EXPECT_EQ(acts[4].number, 3u);
+  EXPECT_EQ(acts[6].number, 4u);
   EXPECT_THAT(acts[2].item, ::testing::HasSubstr("Gian"));
+}
+
+TEST_F(Acts, InRealTimeAreToldAgainWithTheTimeAtWhichTheyWereDone) {
+  begin(false);
+  static_cast<void>(application->call("Mover", "doubled", {types::Value::of(2.5)}));
+  static_cast<void>(application->call("Mover", "halved", {}));
+  EXPECT_THAT(kinds(), ElementsAre(Act::Kind::kCall, Act::Kind::kDone, Act::Kind::kCall,
+                                   Act::Kind::kRefused));
+  EXPECT_EQ(acts.at(1).number, 1u);
+  EXPECT_GE(acts.at(1).time, acts.at(0).time);
+  EXPECT_LE(acts.at(1).time, application->now());
+  EXPECT_EQ(acts.at(3).number, 2u);
 }
 
 TEST_F(Acts, OfCommandsHaveNumbersByWhichTheyAreCancelled) {

@@ -55,13 +55,6 @@ std::string why_refused(const base::Result<Value>& result) {
   return result.error();
 }
 
-/// Tells how an act ended if it was refused.
-template <typename Ending>
-Ending told(internal::Journal& journal, std::uint64_t act, Ending ending) {
-  if (!ending) journal.note_refused(act, why_refused(ending));
-  return ending;
-}
-
 /// False if the one who waits for this moment has an objection.
 bool is_ready(const std::function<void()>& ready, base::Diagnostics& diagnostics) {
   if (!ready) return true;
@@ -93,13 +86,24 @@ struct Application::Parts {
   Parts(Blueprint declared, ApplicationOptions wanted)
       : blueprint(std::move(declared)), options(std::move(wanted)) {}
 
+  /// Tells what became of an act.
+  template <typename Ending>
+  Ending told(std::uint64_t act, Ending ending) {
+    if (ending) {
+      journal.note_done(act, executor.done_at());
+    } else {
+      journal.note_refused(act, why_refused(ending));
+    }
+    return ending;
+  }
+
   Blueprint blueprint;
   const ApplicationOptions options;
   Plan plan;
   internal::Engines engines;
   std::vector<Casualty> casualties;
 
-  internal::Clock clock{options.simulated};
+  internal::Clock clock{options.simulated, options.instants.begin};
   internal::Roster roster{blueprint};
   internal::Unreachable unreachable;
   internal::DeathNotice death_notice;
@@ -190,6 +194,10 @@ void Application::begin_anew() {
   all.engines = internal::make_engines(
       all.blueprint, all.plan,
       {&all.health.incidents(), all.options.simulated, all.options.measure_every, now()});
+  for (const auto& engine : all.engines) {
+    const auto cycles = all.options.instants.cycles.find(engine->context().name);
+    if (cycles != all.options.instants.cycles.end()) engine->follow(cycles->second);
+  }
   all.outlets.set_engines(all.engines, all.plan);
   all.loop.begin_anew();
   all.modes.set_up(now());
@@ -321,13 +329,13 @@ std::vector<ThreadStatistics> Application::thread_statistics() const {
 Outcome Application::start_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kStart, .component = std::string(name)});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act, parts_->transitions.start(name));
+  return parts_->told(act, parts_->transitions.start(name));
 }
 
 Outcome Application::stop_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kStop, .component = std::string(name)});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act, parts_->stop_guard.stop(name));
+  return parts_->told(act, parts_->stop_guard.stop(name));
 }
 
 bool Application::is_on_way_to_stop(std::string_view name) const {
@@ -342,25 +350,25 @@ void Application::cancel_way_to_stop(std::string_view name) {
 Outcome Application::recover_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kRecover, .component = std::string(name)});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act, parts_->transitions.recover(name));
+  return parts_->told(act, parts_->transitions.recover(name));
 }
 
 Outcome Application::reset_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kReset, .component = std::string(name)});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act, parts_->transitions.reset(name));
+  return parts_->told(act, parts_->transitions.reset(name));
 }
 
 Outcome Application::clean_up_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kCleanUp, .component = std::string(name)});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act, parts_->transitions.clean_up(name));
+  return parts_->told(act, parts_->transitions.clean_up(name));
 }
 
 Outcome Application::switch_mode(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kMode, .item = std::string(name)});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act, parts_->modes.switch_to(name));
+  return parts_->told(act, parts_->modes.switch_to(name));
 }
 
 base::Result<void> Application::set_property(std::string_view component, std::string_view property,
@@ -371,7 +379,7 @@ base::Result<void> Application::set_property(std::string_view component, std::st
                         .values = {value},
                         .caller = caller});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act, parts_->tools.set_property(component, property, value, caller));
+  return parts_->told(act, parts_->tools.set_property(component, property, value, caller));
 }
 
 base::Result<types::Value> Application::value_of(std::string_view component,
@@ -389,8 +397,8 @@ base::Result<std::optional<types::Value>> Application::call(std::string_view com
                         .values = arguments,
                         .caller = caller});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act,
-              parts_->tools.call(component, operation, std::move(arguments), caller));
+  return parts_->told(
+      act, parts_->tools.call(component, operation, std::move(arguments), caller));
 }
 
 base::Result<component::CommandHandle> Application::begin(std::string_view component,
@@ -403,8 +411,8 @@ base::Result<component::CommandHandle> Application::begin(std::string_view compo
                                                      .values = arguments,
                                                      .caller = caller});
   const std::uint64_t act = parts_->journal.last();
-  return told(parts_->journal, act,
-              parts_->tools.begin(component, command, std::move(arguments), caller, number));
+  return parts_->told(
+      act, parts_->tools.begin(component, command, std::move(arguments), caller, number));
 }
 
 base::Result<std::int32_t> Application::watch(const std::vector<WatchedNumber>& numbers,

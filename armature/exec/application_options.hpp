@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -55,11 +56,20 @@ struct CommandName {
   std::string command;
 };
 
+/// Of simulated time that is to pass as real time once did.
+struct RecordedInstants {
+  base::Time begin{};  ///< what the time is at first
+  /// By periodic threads: when their cycles come, in order, instead of once a period. Threads that
+  /// are not named keep their periods.
+  std::map<std::string, std::vector<base::Time>> cycles{};
+};
+
 /// How an application runs.
 struct ApplicationOptions {
   RealtimeMode realtime = RealtimeMode::kOff;
   bool simulated = false;
   Pace pace;  ///< of simulated time
+  RecordedInstants instants;  ///< of simulated time
   OnFault on_fault = OnFault::kStopDependents;
   std::vector<Grant> grants;
   std::vector<CommandName> before_stop;                        ///< for `run_before_stop`

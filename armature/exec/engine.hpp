@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "armature/base/realtime.hpp"
@@ -40,6 +41,10 @@ class Engine {
 
   /// Execution times of components are taken in every n-th cycle.
   void measure_every(std::uint64_t cycles) { measure_every_ = cycles_to_measured_ = cycles; }
+
+  /// Its cycles come at these times instead of once a period. Of a periodic thread, in simulated
+  /// time.
+  void follow(std::vector<base::Time> times) { schedule_.follow(std::move(times)); }
 
   /// Has everything that the thread does go to a timeline as well.
   void keep_timeline(std::shared_ptr<component::Timeline> timeline, std::uint16_t number);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "armature/base/time.hpp"
 
@@ -21,8 +24,12 @@ class PeriodicSchedule {
 
   PeriodicSchedule(base::Duration period, bool catch_up) : period_(period), catch_up_(catch_up) {}
 
+  /// Cycles come at these times, in their order, instead of once a period; none is late.
+  /// @param times  not empty
+  void follow(std::vector<base::Time> times) { recorded_ = std::move(times); }
+
   void begin(base::Time start) {
-    next_ = start + period_;
+    next_ = recorded_.empty() ? start + period_ : recorded_.front();
     run_ = 0;
     skipped_ = 0;
     late_in_a_row_ = 0;
@@ -35,6 +42,7 @@ class PeriodicSchedule {
   /// @rt nonblocking
   Due settle(base::Time now) {
     if (now < next_) return {};
+    if (!recorded_.empty()) return take_recorded();
     Due due;
     due.lateness = now - next_;
     const bool in_time = due.lateness < period_;  // mostly, and a division takes its time
@@ -54,8 +62,15 @@ class PeriodicSchedule {
   int late_in_a_row() const { return late_in_a_row_; }
 
  private:
+  Due take_recorded() {
+    ++run_;
+    next_ = run_ < recorded_.size() ? recorded_[run_] : base::Time::max();
+    return {.run = 1};
+  }
+
   base::Duration period_;
   bool catch_up_;
+  std::vector<base::Time> recorded_;
   base::Time next_{};
   std::uint64_t run_ = 0;
   std::uint64_t skipped_ = 0;

@@ -119,6 +119,23 @@ TEST(PeriodicSchedule, WhatPassedIsRunOrSkippedExactlyWheneverItWakes) {
   }
 }
 
+TEST(PeriodicSchedule, FollowsRecordedTimes) {
+  PeriodicSchedule schedule(10ms, false);
+  schedule.follow({kStart + 3ms, kStart + 4ms, kStart + 40ms});
+  schedule.begin(kStart);
+  EXPECT_EQ(schedule.settle(kStart + 2ms).run, 0u);
+  EXPECT_EQ(schedule.next(), kStart + 3ms);
+  for (const base::Duration time : {3ms, 4ms, 40ms}) {
+    const auto due = schedule.settle(kStart + time);
+    EXPECT_EQ(due.run, 1u);
+    EXPECT_EQ(due.skipped, 0u) << "nobody was late";
+    EXPECT_EQ(due.lateness, 0ms);
+  }
+  EXPECT_EQ(schedule.next(), base::Time::max());
+  schedule.begin(kStart);
+  EXPECT_EQ(schedule.next(), kStart + 3ms) << "and again";
+}
+
 TEST(PeriodicSchedule, YearsOfShortCyclesStayExact) {
   PeriodicSchedule schedule(1us, false);
   schedule.begin(kStart);

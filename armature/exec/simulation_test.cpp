@@ -56,6 +56,21 @@ TEST(Simulation, RunsByTimeThenUrgencyThenDeclaration) {
                           "Urgent 6", "First40 6", "Second40 6", "Ordinary 6"));
 }
 
+TEST(Simulation, PassesAsRealTimeOnceDid) {
+  Scene scene;
+  scene.add("Recorded", Activity::periodic(2ms));
+  scene.add("Periodic", Activity::periodic(2ms));
+  ApplicationOptions options = patient(true);
+  options.instants = {at(100ms), {{"Recorded", {at(101ms), at(105ms), at(106ms)}}}};
+  Application application(std::move(scene.blueprint), std::move(options));
+  EXPECT_EQ(application.now(), at(100ms));
+  ASSERT_TRUE(application.start().ok());
+  application.run_for(8ms);
+  EXPECT_THAT(scene.journal.take(),
+              ElementsAre("Recorded 101", "Periodic 102", "Periodic 104", "Recorded 105",
+                          "Recorded 106", "Periodic 106", "Periodic 108"));
+}
+
 TEST(Simulation, ATriggeredThreadRunsAtTheTimeOfItsTriggerWhenItsTurnComes) {
   Scene scene;
   Probe& fast = scene.add("Fast", Activity::periodic(1ms, 50));

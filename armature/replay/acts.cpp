@@ -15,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/exec/application_options.hpp"
-#include "armature/exec/refusal.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/platform/output_file.hpp"
 #include "armature/record/json.hpp"
@@ -37,7 +36,12 @@ std::string written(const Json& line) {
 }
 
 std::string line_of(const Act& act) {
-  if (exec::is_refusal(act)) return written({{"refused", act.turn}, {"why", act.item}});
+  if (act.kind == Act::Kind::kRefused) {
+    return written({{"refused", act.number}, {"why", act.item}});
+  }
+  if (act.kind == Act::Kind::kDone) {
+    return written({{"done", act.number}, {"time_ns", base::to_ns(act.time)}});
+  }
   Json line{{"time_ns", base::to_ns(act.time)},
             {"turn", act.turn},
             {"act", std::string(name_of(act.kind))}};
@@ -73,7 +77,8 @@ std::optional<RecordedAct> act_in(const Json& line) {
   Act& act = read.act;
   const auto kind = types::value_named<Act::Kind>(line.at("act").get<std::string>());
   const auto caller = types::value_named<exec::Caller>(line.value("caller", "operator"));
-  if (!kind || !caller) return std::nullopt;
+  const bool is_outcome = kind == Act::Kind::kRefused || kind == Act::Kind::kDone;
+  if (!kind || !caller || is_outcome) return std::nullopt;
   act.kind = *kind;
   act.caller = *caller;
   act.time = base::time_from_ns(number_in<std::int64_t>(line, "time_ns"));
@@ -86,11 +91,18 @@ std::optional<RecordedAct> act_in(const Json& line) {
   return read;
 }
 
+/// What became of an act.
 /// @return whether there is such an act
-bool take_refusal(const Json& line, std::vector<RecordedAct>& acts) {
-  const auto number = number_in<std::uint64_t>(line, "refused");
+bool take_outcome(const Json& line, std::vector<RecordedAct>& acts) {
+  const bool refused = line.contains("refused");
+  const auto number = number_in<std::uint64_t>(line, refused ? "refused" : "done");
   if (number == 0 || number > acts.size()) return false;
-  acts[number - 1].refused = line.at("why").get<std::string>();
+  RecordedAct& told = acts[number - 1];
+  if (refused) {
+    told.refused = line.at("why").get<std::string>();
+  } else {
+    told.act.time = base::time_from_ns(number_in<std::int64_t>(line, "time_ns"));
+  }
   return true;
 }
 
@@ -105,7 +117,7 @@ struct ActsWriter::State {
   std::uint64_t lost = 0;
   bool writing = false;
   bool ending = false;
-  bool too_slow = false;  ///< nobody waits for the disk any more
+  bool waited_for = true;  ///< until the disk is too slow
   std::optional<base::Error> failure;
   platform::OutputFile file;  ///< the thread's
 
@@ -137,11 +149,13 @@ ActsWriter::ActsWriter(std::shared_ptr<State> state) : state_(std::move(state)) 
   thread_ = std::make_unique<platform::Thread>(request, [shared = state_] { shared->serve(); });
 }
 
-base::Result<std::unique_ptr<ActsWriter>> ActsWriter::create(const std::string& folder) {
+base::Result<std::unique_ptr<ActsWriter>> ActsWriter::create(const std::string& folder,
+                                                             ActsWait wait) {
   auto file = platform::OutputFile::create(folder + '/' + kActsFile);
   if (!file) return base::Error{file.error()};
-  return std::unique_ptr<ActsWriter>(
-      new ActsWriter(std::make_shared<State>(std::move(file).value())));
+  auto state = std::make_shared<State>(std::move(file).value());
+  state->waited_for = wait == ActsWait::kForTheFile;
+  return std::unique_ptr<ActsWriter>(new ActsWriter(std::move(state)));
 }
 
 ActsWriter::~ActsWriter() { static_cast<void>(close()); }
@@ -155,8 +169,8 @@ void ActsWriter::add(const Act& act) {
   }
   state_->waiting += line;
   state_->changed.notify_all();
-  if (state_->too_slow) return;
-  state_->too_slow = !state_->changed.wait_for(
+  if (!state_->waited_for) return;
+  state_->waited_for = state_->changed.wait_for(
       lock, kPatience, [this] { return state_->waiting.empty() && !state_->writing; });
 }
 
@@ -188,8 +202,8 @@ base::Result<std::vector<RecordedAct>> parse_acts(std::string_view text, const s
     rest.remove_prefix(line.size() + 1);
     try {
       const Json json = Json::parse(line);
-      if (json.contains("refused")) {
-        if (!take_refusal(json, acts)) return base::Error{place + "no such act was refused"};
+      if (json.contains("refused") || json.contains("done")) {
+        if (!take_outcome(json, acts)) return base::Error{place + "there is no such act"};
         continue;
       }
       auto act = act_in(json);

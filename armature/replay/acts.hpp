@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,19 +17,25 @@ namespace armature::replay {
 /// Its name in the folder of a run.
 inline constexpr const char* kActsFile = "acts.jsonl";
 
-/// Writes the acts of a run in simulated time, a line of JSON each. Whoever tells of one waits
-/// until it is in the file, where it outlives the process. A thread writes, so that a disk that
-/// hangs holds up nobody for more than a second, once.
+/// Whether who tells of an act waits until it is in the file, where it outlives the process.
+enum class ActsWait : std::uint8_t {
+  kForTheFile,  ///< a disk that hangs holds up nobody for more than a second, once
+  kNot,         ///< in real time
+};
+
+/// Writes the acts of a run, a line of JSON each. A thread writes, so that nobody waits for a disk
+/// that hangs.
 class ActsWriter {
  public:
   /// Makes the file, or empties the one that is there.
-  static base::Result<std::unique_ptr<ActsWriter>> create(const std::string& folder);
+  static base::Result<std::unique_ptr<ActsWriter>> create(const std::string& folder,
+                                                          ActsWait wait = ActsWait::kForTheFile);
   ActsWriter(const ActsWriter&) = delete;
   ActsWriter& operator=(const ActsWriter&) = delete;
   /// Gives what is left a second to be written.
   ~ActsWriter();
 
-  /// Also the outcome of an act, exec::refusal.
+  /// Also what became of an act.
   /// @thread one at a time
   void add(const exec::Act& act);
   /// Completes the file; the error says what is missing in it.

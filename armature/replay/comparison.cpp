@@ -136,10 +136,14 @@ class Comparer {
       ++found_.missing;
       return;
     }
-    const bool shifted = was != nullptr && is != nullptr && was->time != is->time;
+    const bool shifted =
+        options_.times && was != nullptr && is != nullptr && was->time != is->time;
     if (was != nullptr && is != nullptr && !shifted && was->json == is->json) {
       ++found_.equal;
-    } else if (!std::exchange(differs_, true)) {
+      return;
+    }
+    ++found_.different;
+    if (!std::exchange(differs_, true)) {
       found_.differences.push_back(
           {*channel_, time, number, told(was, shifted), told(is, shifted)});
     }
@@ -157,6 +161,7 @@ class Comparer {
 void Comparison::add(Comparison other) {
   equal += other.equal;
   channels += other.channels;
+  different += other.different;
   missing += other.missing;
   const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(only_recorded, other.only_recorded);
@@ -198,6 +203,7 @@ Comparison compare(const McapRecording& was, const McapRecording& is,
   Comparer comparer(options, end);
   const auto replayed = by_channel(is);
   for (const auto& [channel, samples] : by_channel(was)) {
+    if (options.channels != nullptr && !options.channels->contains(channel)) continue;
     const auto other = replayed.find(channel);
     if (other == replayed.end()) {
       comparer.found().only_recorded.push_back(channel);

@@ -42,6 +42,25 @@ TEST(Comparison, OfEqualRecordingsCountsSamplesAndChannels) {
   EXPECT_FALSE(found.first(kFlows, kOrder).has_value());
 }
 
+TEST(Comparison, LooksAtChannelsOfInterestAlone) {
+  McapRecording is = loop();
+  sample(is, 2, 0).json = "{\"value\":7}";
+  sample(is, 3, 2).json = "{\"value\":8}";
+  const std::set<std::string> channels = {"PID.Out"};
+  const Comparison found = compare(loop(), is, {.channels = &channels});
+  EXPECT_EQ(found.equal, 2u);
+  EXPECT_EQ(found.different, 1u);
+  ASSERT_EQ(found.differences.size(), 1u);
+  EXPECT_EQ(found.differences[0].channel, "PID.Out");
+}
+
+TEST(Comparison, LeavesTimesAloneIfItIsTold) {
+  McapRecording is = loop();
+  for (record::RecordedSample& one : is.samples) one.time += std::chrono::microseconds(3);
+  EXPECT_EQ(compare(loop(), is, {}).different, 9u);
+  EXPECT_EQ(compare(loop(), is, {.times = false}).equal, 9u);
+}
+
 TEST(Comparison, TellsTheEarliestDifference) {
   McapRecording is = loop();
   sample(is, 3, 0).json = "{\"value\":7}";

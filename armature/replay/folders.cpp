@@ -77,6 +77,7 @@ class FolderComparison {
     const auto recorded = by_name(was);
     const auto replayed = by_name(is);
     for (const auto& [name, files] : recorded) {
+      if (!is_of_interest(name, replayed)) continue;
       const auto others = replayed.find(name);
       const std::size_t count = others == replayed.end() ? 0 : others->second.size();
       for (std::size_t i = 0; i < files.size(); ++i) {
@@ -87,7 +88,7 @@ class FolderComparison {
         }
       }
     }
-    if (!complete_) return;
+    if (!complete_ || options_.channels != nullptr) return;
     for (const auto& [name, files] : replayed) {
       const auto others = recorded.find(name);
       const std::size_t count = others == recorded.end() ? 0 : others->second.size();
@@ -98,6 +99,13 @@ class FolderComparison {
   Comparison take() { return std::move(found_); }
 
  private:
+  using Files = std::map<std::string, std::vector<fs::path>>;
+
+  /// Of some components there is neither a black box nor what a recorder had of others.
+  bool is_of_interest(const std::string& name, const Files& replayed) const {
+    return options_.channels == nullptr || (!name.starts_with(kBlackBox) && replayed.contains(name));
+  }
+
   void compare_files(const fs::path& was, const fs::path& is) {
     const auto before = record::load_mcap(was.string(), record::Unclosed::kReadToLastChunk);
     const auto after = record::load_mcap(is.string(), record::Unclosed::kReadToLastChunk);
@@ -163,6 +171,21 @@ base::Time end_in(const nlohmann::json& one, const nlohmann::json& other) {
 }
 
 }  // namespace
+
+std::vector<std::unique_ptr<record::McapRecording>> load_recordings(
+    const std::string& folder, base::Diagnostics& diagnostics) {
+  std::vector<std::unique_ptr<record::McapRecording>> all;
+  for (const fs::path& file : recordings_in(folder)) {
+    if (file.filename().string().starts_with(kBlackBox)) continue;
+    auto recording = record::load_mcap(file.string(), record::Unclosed::kReadToLastChunk);
+    if (recording) {
+      all.push_back(std::make_unique<record::McapRecording>(std::move(recording).value()));
+    } else {
+      diagnostics.error({}, recording.error());
+    }
+  }
+  return all;
+}
 
 bool has_recordings(const std::string& folder) { return !recordings_in(folder).empty(); }
 

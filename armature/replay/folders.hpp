@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "armature/base/diagnostic.hpp"
+#include "armature/record/mcap_reader.hpp"
 #include "armature/replay/comparison.hpp"
 #include "armature/replay/experiment.hpp"
 
@@ -15,6 +18,10 @@ inline constexpr const char* kReplayFile = "replay.json";
 /// Whether the run in `folder` recorded anything.
 bool has_recordings(const std::string& folder);
 
+/// All recordings of the run in `folder`, but black boxes.
+std::vector<std::unique_ptr<record::McapRecording>> load_recordings(const std::string& folder,
+                                                                    base::Diagnostics& diagnostics);
+
 /// Samples that the recorders of a run dropped, or could not write, as its summary says.
 struct Losses {
   bool known = false;  ///< false: the run has left no summary, since it was killed
@@ -22,7 +29,8 @@ struct Losses {
 };
 Losses losses_of(const std::string& folder, const Experiment& experiment);
 
-/// Compares all recordings in the folder of a run, black boxes included, with those of its replay.
+/// Compares all recordings in the folder of a run, black boxes included, with those of its replay;
+/// if only some channels are of interest, what recorders wrote of them.
 /// Errors name a recording that cannot be read, or that the other folder lacks.
 /// @param was, is   folders
 /// @param complete  the replay went to the end of the run: what it lacks would have come by then

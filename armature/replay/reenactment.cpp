@@ -14,12 +14,12 @@ namespace armature::replay {
 using exec::Act;
 using exec::RunEnd;
 
-namespace {
-
 bool is_of_the_end(const Act& act) {
   return act.kind == Act::Kind::kBeforeStop || act.kind == Act::Kind::kMistake ||
          act.kind == Act::Kind::kEnd;
 }
+
+namespace {
 
 /// The input that an inlet's output `Component.Port` writes.
 const component::InputPortBase* input_named(const exec::Application& application,
@@ -62,12 +62,14 @@ const Act* Reenactment::next_between() const {
 }
 
 RunEnd Reenactment::run(exec::Application& application, base::Time until,
-                        const std::function<bool()>& at_instant) {
+                        const std::function<bool()>& at_instant, const Alone* alone) {
   application_ = &application;
   RunEnd end = RunEnd::kTimeUp;
   while (true) {
     const Act* const act = next_between();
-    const base::Time limit = act == nullptr ? until : std::min(until, act->time);
+    const base::Time recorded = alone == nullptr ? base::Time::max() : alone->next();
+    const base::Time limit =
+        std::min({until, recorded, act == nullptr ? base::Time::max() : act->time});
     bool told_to_end = false;
     end = application.run_until(limit, [&] {
       told_to_end = at_instant && !at_instant();
@@ -76,6 +78,10 @@ RunEnd Reenactment::run(exec::Application& application, base::Time until,
     if (told_to_end) break;
     const bool by_itself = end == RunEnd::kFaulted || end == RunEnd::kStoppedByReaction;
     if (!by_itself) end = RunEnd::kTimeUp;
+    if (!by_itself && recorded <= application.now()) {
+      alone->play(application);
+      continue;
+    }
     const bool reached = act != nullptr && application.now() >= act->time;
     if (!reached || (by_itself && !is_of_the_end(*act))) break;
     const RecordedAct& next = *take_next();
@@ -163,6 +169,8 @@ std::string Reenactment::perform(const Act& act, std::vector<Value> values) {
       return {};
     }
     case Kind::kEnd:
+    case Kind::kRefused:  // which no list of acts has
+    case Kind::kDone:
       return {};
   }
   return {};

@@ -14,6 +14,7 @@
 #include "armature/component/operations/command.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/replay/acts.hpp"
+#include "armature/replay/alone.hpp"
 
 namespace armature::replay {
 
@@ -23,6 +24,9 @@ struct ChangedOutcome {
   std::string was;
   std::string is;
 };
+
+/// With such an act a run begins to end.
+bool is_of_the_end(const exec::Act& act);
 
 /// When an act is due. The same turns of threads are those of the same deployment only: who changed
 /// it goes by the time.
@@ -41,10 +45,11 @@ class Reenactment {
   void attend();
 
   /// From the start of the application to the end of the recorded run, or `until`.
+  /// @param alone  of components that run again without the others; may be null
   /// @param at_instant  looks on whenever all that is due at an instant is done; false ends it
   /// @return how it ended: kTimeUp at its end or `until`, kConditionMet if `at_instant` did
   exec::RunEnd run(exec::Application& application, base::Time until,
-                   const std::function<bool()>& at_instant);
+                   const std::function<bool()>& at_instant, const Alone* alone = nullptr);
 
   /// What did not end as it did, or could not be done: acts that name what is not there any more,
   /// whose values have another type now, or whose turn did not come.

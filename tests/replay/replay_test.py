@@ -13,6 +13,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -181,6 +182,25 @@ def mutate(path, channel):
     return time_ns, sequence, mcap[c + 22:d].decode()
 
 
+def load_samples(path, channel):
+    """Values of a channel of a recording whose chunks are not compressed, as they are written."""
+    with open(path, "rb") as file:
+        mcap = file.read()
+    ids, values = {}, []
+    inside = [(a + 40 + struct.unpack_from("<I", mcap, a + 28)[0], b)
+              for kind, a, b in records_of(mcap, 8, len(mcap) - 8) if kind == 0x06]
+    for begin, end in inside + [(8, len(mcap) - 8)]:
+        for kind, a, _ in records_of(mcap, begin, end):
+            if kind == 0x04:
+                number, _, length = struct.unpack_from("<HHI", mcap, a)
+                ids[number] = mcap[a + 8:a + 8 + length].decode()
+    for begin, end in inside:
+        for kind, a, b in records_of(mcap, begin, end):
+            if kind == 0x05 and ids[struct.unpack_from("<H", mcap, a)[0]] == channel:
+                values.append(mcap[a + 22:b].decode())
+    return values
+
+
 class Recorded(unittest.TestCase):
     """A run of a robot; each test has its own copy."""
 
@@ -194,16 +214,17 @@ class Recorded(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.root)
 
-    def run_of(self, deployment, script, name, *arguments, code=0, **options):
+    def run_of(self, deployment, script, name, *arguments, code=0, timed=("--sim",), **options):
         folder = f"{self.root}/{name}"
         if not os.path.exists(folder):
             with open(f"{self.root}/{name}.lua", "w", encoding="utf-8") as file:
                 file.write(script)
-            done = armature("run", f"{ROBOTS}/{deployment}", "-L", LIBRARIES, "--sim", "--script",
+            done = armature("run", f"{ROBOTS}/{deployment}", "-L", LIBRARIES, *timed, "--script",
                             f"{self.root}/{name}.lua", "--out", folder, *arguments, **options)
-            self.assertEqual(done.returncode, code, done.stderr)
-        copy = f"{self.root}/{name}_of_{self.id().split('.')[-1]}"
-        shutil.copytree(folder, copy)
+            if code is not None:
+                self.assertEqual(done.returncode, code, done.stderr)
+        copy = tempfile.mkdtemp(prefix=f"{name}_of_{self.id().split('.')[-1]}_", dir=self.root)
+        shutil.copytree(folder, copy, dirs_exist_ok=True)
         return copy
 
     def replay(self, folder, *arguments, code=0):
@@ -326,14 +347,6 @@ class Janus(Recorded):
         change(f"{folder}/experiment.json", "janus.urdf", "gone.urdf")
         self.assertIn("is not what it was when the run was recorded", self.replay(folder).stderr)
 
-    def test_a_run_in_real_time_is_refused(self):
-        folder = f"{self.root}/real"
-        done = armature("run", f"{ROBOTS}/janus/demo/pid.yaml", "-L", LIBRARIES, "--for", "0.2s",
-                        "--realtime", "off", "--out", folder)
-        self.assertIn(done.returncode, (0, 4), done.stderr)  # 4: the machine is busy
-        self.assertFalse(os.path.exists(f"{folder}/acts.jsonl"))
-        self.assertIn("was recorded in real time", self.replay(folder, code=1).stderr)
-
     def test_wrong_folders_are_refused(self):
         self.assertIn("is no folder", self.replay(f"{self.root}/nowhere", code=1).stderr)
         empty = tempfile.mkdtemp(dir=self.root)
@@ -453,6 +466,109 @@ class Janus(Recorded):
                        "{periodic: 50 ms, scheduler: other}}\n")
         told = self.replay(folder, "--with", f"{folder}/ros.yaml", code=1).stderr
         self.assertIn("'Ros' (RosNode) speaks to others outside of this process", told)
+
+
+
+class Alone(Recorded):
+    """Components that run again without the others, on what was recorded."""
+
+    WARNING = "what is not recorded does not come again: the event Arming.Arm"
+
+    def recorded(self, *arguments):
+        return self.run_of("janus/demo/pid.yaml", JANUS, "janus" + "".join(arguments[1::2]), *arguments)
+
+    def in_real_time(self):
+        return self.run_of("janus/demo/pid.yaml", JANUS, "real", code=None, timed=())  # a busy machine
+
+    def test_are_equal_to_the_bit(self):
+        told = self.replay(self.recorded(), "--only", "PID*")
+        self.assertRegex(told.stdout, EQUAL)
+        self.assertIn(self.WARNING, told.stderr)
+
+    def test_are_equal_to_the_bit_after_a_run_in_real_time(self):
+        folder = self.in_real_time()
+        told = self.replay(folder, code=1).stderr
+        self.assertIn("was recorded in real time, whose hardware is not here: name the components "
+                      "that are to run again on what was recorded (--only 'Controller,PID*')", told)
+        told = self.replay(folder, "--only", "PID*").stdout
+        self.assertRegex(told, EQUAL)
+        self.assertGreater(int(EQUAL.match(told).group(1)), 20)
+
+    def test_differ_if_what_was_recorded_is_changed(self):
+        for folder, changed in ((self.recorded(), "PID1.Sen"), (self.in_real_time(), "PID1.Out")):
+            mutate(f"{folder}/janus.mcap", changed)
+            told = self.replay(folder, "--only", "PID1", code=5).stdout
+            self.assertIn("of component PID1, port Out", told)
+
+    def test_answer_what_if_on_what_was_recorded(self):
+        folder = self.in_real_time()
+        told = self.replay(folder, "--only", "PID*", "--set", "PID1.Kp=200").stdout
+        self.assertIn(f"{folder}/what-if/report.html", told)
+        was = load_samples(f"{folder}/what-if/was/janus.mcap", "PID1.Out")
+        what_if = load_samples(f"{folder}/what-if/what-if/janus.mcap", "PID1.Out")
+        self.assertEqual(len(was), len(what_if))
+        self.assertNotEqual(was, what_if)
+
+    def test_need_what_others_wrote(self):
+        told = self.replay(self.recorded(), "--only", "Sensor", code=1).stderr
+        self.assertIn("'Joint1.Displacement', which goes to 'Sensor.Displacement1', is not recorded, "
+                      "likewise 'Joint2.Displacement' (have a Reporter record it (what: "
+                      "[Joint1.Displacement]), or let 'Joint1' run again, too)", told)
+        told = self.replay(self.recorded("--set", "Reporter.every=2"), "--only", "PID1", code=1).stderr
+        self.assertIn("is recorded with gaps (record it without 'every' and 'on_change'", told)
+
+    def test_call_nobody_who_does_not_run(self):
+        told = self.replay(self.recorded(), "--only", "Joint1", code=1).stderr
+        self.assertIn("'Joint1' calls 'Arming', whose answers are not recorded: notArmed", told)
+
+    def test_have_names_and_something_to_compare(self):
+        told = self.replay(self.recorded(), "--only", "PID3", code=1).stderr
+        self.assertIn("there is no component 'PID3' that could run again (did you mean 'PID1'?)", told)
+        told = self.replay(self.recorded(), "--only", "Controller", code=1).stderr
+        self.assertIn("nothing is recorded of what Controller wrote, so nothing can be compared", told)
+
+    def test_are_not_on_a_bus_of_another_process(self):
+        folder = self.recorded()
+        change(f"{folder}/experiment.json", "SimulatedJanus", "AICBus")
+        change(f"{folder}/experiment.json", 'supply: 12 V, robot_description: \\"${description}\\"}',
+               "bus: 'virtual:/tmp/nobody'}")
+        told = self.replay(folder, "--only", "Cards", code=1).stderr
+        self.assertIn("'Cards' is on the bus 'virtual:/tmp/nobody' of another process", told)
+
+    def test_of_a_robot_of_another_process(self):
+        bus = f"{self.root}/head.bus"
+        store(f"{self.root}/on_can.yaml", {
+            "include": [f"{ROBOTS}/janus/deployments/on_can.yaml"], "libraries": ["record"],
+            "grants": {"script": ["Arming.arm"]}, "parameters": {"bus": f"virtual:{bus}"},
+            "components": {"Reporter": {
+                "model": "Reporter", "activity": {"periodic": "50 ms", "scheduler": "other"},
+                "properties": {"what": ["PID*.Ref", "PID*.Sen", "PID*", "Generator", "Joint*.Armed", "BridgeRef"],
+                               "file": "head.mcap"}}}})
+        head = subprocess.Popen([f"{os.path.dirname(PROGRAM)}/armature-janus-plant", "--bus", bus],
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            for _ in range(100):
+                if os.path.exists(bus):
+                    break
+                time.sleep(0.05)
+            with open(f"{self.root}/move.lua", "w", encoding="utf-8") as file:
+                file.write(JANUS)
+            folder = f"{self.root}/head"
+            armature("run", f"{self.root}/on_can.yaml", "-L", LIBRARIES, "--script",
+                     f"{self.root}/move.lua", "--out", folder)
+        finally:
+            head.kill()
+            head.wait()
+        for names in ("PID*", "Generator,Arming"):
+            told = self.replay(folder, "--only", names).stdout
+            self.assertRegex(told, EQUAL)
+            self.assertGreater(int(EQUAL.match(told).group(1)), 20)
+        self.assertIn("'Cards' is on the bus", self.replay(folder, "--only", "Cards", code=1).stderr)
+
+    def test_of_the_wam(self):
+        folder = self.run_of("wam/demo/computed_torque.yaml", WAM_ESTOP, "wam_alone", "--set",
+                             "Reporter.what=[Controller, Sensor, BridgeRef, Sampler]", code=None)
+        self.assertRegex(self.replay(folder, "--only", "Sampler,Controller").stdout, EQUAL)
 
 
 class Wam(Recorded):

@@ -103,22 +103,24 @@ struct HeldSample {
 /// An output of the type of another port.
 class OutputPortBase::Erased final : private internal::HeldSample, public OutputPortBase {
  public:
-  Erased(Component& owner, std::string_view name, const PortBase::About& original)
+  Erased(Component& owner, std::string_view name, const PortBase& like,
+         const PortBase::About& original)
       : HeldSample{internal::AnySample(original.form)},
         OutputPortBase(owner,
                        {name, original.doc, original.unit, original.form.type(), original.is_small},
                        held.get()) {
+    follow_unit_of(like);
     apply(original.size);
   }
 };
 
 std::unique_ptr<OutputPortBase> OutputPortBase::twin(StandIn& owner) const {
-  return std::make_unique<Erased>(owner, name(), about());
+  return std::make_unique<Erased>(owner, name(), *this, about());
 }
 
 std::unique_ptr<OutputPortBase> InputPortBase::make_writer(Component& owner,
                                                            std::string_view name) const {
-  return std::make_unique<OutputPortBase::Erased>(owner, name, about());
+  return std::make_unique<OutputPortBase::Erased>(owner, name, *this, about());
 }
 
 void OutputPortBase::disconnect_all() {

@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "armature/base/name_pattern.hpp"
 #include "armature/base/near_name.hpp"
 #include "armature/component/interface.hpp"
 
@@ -47,13 +48,13 @@ class Selector {
  private:
   /// A name that has all of a component's and goes on is that of a member.
   bool add_from(const Component& component, const std::string& name) {
-    if (matches(name, component.name())) return add_all(outputs_of(component));
+    if (base::matches(name, component.name())) return add_all(outputs_of(component));
     const std::size_t dot = name.rfind('.');
     if (dot == std::string::npos) return false;
-    if (!matches(std::string_view(name).substr(0, dot), component.name())) return false;
+    if (!base::matches(std::string_view(name).substr(0, dot), component.name())) return false;
     std::vector<Source> members;
     for (Source& member : members_of(component)) {
-      if (matches(name, member.name)) members.push_back(std::move(member));
+      if (base::matches(name, member.name)) members.push_back(std::move(member));
     }
     return add_all(std::move(members));
   }
@@ -92,20 +93,6 @@ class Selector {
 };
 
 }  // namespace
-
-bool matches(std::string_view pattern, std::string_view name) {
-  if (pattern.empty()) return name.empty();
-  if (pattern.front() != '*') {
-    return !name.empty() && name.front() == pattern.front() &&
-           matches(pattern.substr(1), name.substr(1));
-  }
-  const std::string_view rest = pattern.substr(1);
-  for (std::size_t length = 0; length <= name.size(); ++length) {
-    if (matches(rest, name.substr(length))) return true;
-    if (length < name.size() && name[length] == '.') return false;
-  }
-  return false;
-}
 
 Selection select(const std::vector<std::string>& names,
                  const std::vector<component::Component*>& components) {

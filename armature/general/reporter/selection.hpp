@@ -29,7 +29,4 @@ struct Selection {
 Selection select(const std::vector<std::string>& names,
                  const std::vector<component::Component*>& components);
 
-/// True if `pattern`, in which a `*` is any number of characters but dots, is `name`.
-bool matches(std::string_view pattern, std::string_view name);
-
 }  // namespace armature::general

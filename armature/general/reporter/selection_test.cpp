@@ -92,16 +92,5 @@ TEST_F(Selecting, AComponentWithoutOutputPortsIsObjectedTo) {
   EXPECT_THAT(objections[0].hint, HasSubstr("'Silent.*'"));
 }
 
-TEST(Matching, IsOfTheWholeName) {
-  EXPECT_TRUE(matches("a*b", "ab"));
-  EXPECT_TRUE(matches("a*b", "axxb"));
-  EXPECT_TRUE(matches("*", ""));
-  EXPECT_TRUE(matches("**x", "abx"));
-  EXPECT_FALSE(matches("a*b", "a.b"));
-  EXPECT_FALSE(matches("a", "ab"));
-  EXPECT_FALSE(matches("ab", "a"));
-  EXPECT_FALSE(matches("", "a"));
-}
-
 }  // namespace
 }  // namespace armature::general

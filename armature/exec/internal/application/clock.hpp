@@ -9,7 +9,9 @@ namespace armature::exec::internal {
 /// The time of an application: that of the machine, or one that its run loop moves on.
 class Clock {
  public:
-  explicit Clock(bool simulated) : simulated_(simulated) {}
+  /// @param begin  of simulated time
+  explicit Clock(bool simulated, base::Time begin = {})
+      : simulated_(simulated), simulated_now_(begin) {}
 
   base::Time now() const { return simulated_ ? simulated_now_ : platform::monotonic_now(); }
   /// Of simulated time only.
@@ -17,7 +19,7 @@ class Clock {
 
  private:
   const bool simulated_;
-  base::Time simulated_now_{};
+  base::Time simulated_now_;
 };
 
 }  // namespace armature::exec::internal

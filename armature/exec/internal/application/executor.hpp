@@ -20,12 +20,15 @@ class Executor {
   /// Runs `work`, as code of `component`, in its thread, or here if that thread does not run; false
   /// if it was not done within the limit, its thread hangs, or dies of it.
   bool run_in_thread_of(component::Component& component, std::function<void()> work) const;
+  /// The cycle time of the thread that did the last work.
+  base::Time done_at() const { return done_at_; }
 
  private:
   const Clock& clock_;
   const Unreachable& unreachable_;
   const DeathNotice& death_notice_;
   const base::Duration limit_;
+  mutable base::Time done_at_{};
 };
 
 /// What to say if `run_in_thread_of` is false.

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "armature/exec/refusal.hpp"
-
 namespace armature::exec::internal {
 
 void Journal::begin_anew() {
@@ -30,7 +28,16 @@ void Journal::note_cancelled() {
 }
 
 void Journal::note_refused(std::uint64_t act, std::string why) {
-  if (act != 0) options_.acts(refusal(act, std::move(why)));
+  if (act == 0) return;
+  options_.acts({.kind = Act::Kind::kRefused,
+                 .item = std::move(why),
+                 .time = clock_.now(),
+                 .number = act});
+}
+
+void Journal::note_done(std::uint64_t act, base::Time when) {
+  if (act == 0 || options_.simulated) return;
+  options_.acts({.kind = Act::Kind::kDone, .time = when, .number = act});
 }
 
 void Journal::tell(Act act) {

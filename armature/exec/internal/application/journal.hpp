@@ -32,6 +32,8 @@ class Journal {
   std::uint64_t last() const { return told_; }
   /// The act was refused.
   void note_refused(std::uint64_t act, std::string why);
+  /// The thread of its component has done it, at a time of its own; told in real time only.
+  void note_done(std::uint64_t act, base::Time when);
   /// Commands are cancelled by their handles, which know no application: what was cancelled since
   /// the last look comes before whatever is done next.
   void note_cancelled();

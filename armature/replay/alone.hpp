@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/base/time.hpp"
+#include "armature/deploy/deployment.hpp"
+#include "armature/record/mcap_reader.hpp"
+#include "armature/replay/acts.hpp"
+#include "armature/replay/recorded_component.hpp"
+
+namespace armature::replay {
+
+/// Some components of a recorded run, which run again, while what the others wrote to them comes
+/// from the recordings. So hardware and other processes need not be there, nor a simulation of
+/// them, and runs in real time can be replayed.
+class Alone {
+ public:
+  /// Makes the deployment one in which only the components of these names run; a `*` in a name is
+  /// any number of characters but dots. Errors say what is not recorded that they need, or whom
+  /// they call that does not run; a warning says what else they were told.
+  /// @param folder     of the run
+  /// @param real_time  the run was in real time: cycles come at the times of recorded samples
+  static Alone of(const std::vector<std::string>& names, const std::string& folder, bool real_time,
+                  deploy::Deployment& deployment, base::Diagnostics& diagnostics);
+
+  /// Of acts those that concern components which run.
+  std::vector<RecordedAct> acts_for(std::vector<RecordedAct> acts) const;
+
+  /// What was recorded of their own doing.
+  const std::set<std::string>& channels() const { return channels_; }
+  /// Of the run's time: in real time the first in the recordings, since nobody knows more of it.
+  base::Time begin() const { return begin_; }
+  /// When something recorded is to be written next.
+  base::Time next() const;
+  /// Has it written, by those whose thread has not done so.
+  void play(exec::Application& application) const;
+
+ private:
+  friend class Isolation;
+
+  std::set<std::string> names_;
+  std::set<std::string> channels_;
+  base::Time begin_{};
+  std::vector<std::unique_ptr<record::McapRecording>> recordings_;
+  std::vector<RecordedComponent*> recorded_;  ///< writers before readers
+};
+
+}  // namespace armature::replay
