@@ -29,7 +29,7 @@ set(ARMATURE_LAYERS
     "bundle: base platform document orocos deploy idl"
     "generate: base component types runner exec document deploy platform"
     "report: base platform control component exec record"
-    "replay: base platform types component exec record runner inspect deploy"
+    "replay: base platform types rt component exec record runner inspect deploy"
     "remote: base idl ride document inspect exec component rt types platform"
     "foxglove: base platform control inspect remote ride websocket"
     "studio: base platform rt ride websocket remote document deploy inspect edit foxglove"

@@ -25,8 +25,7 @@ bool ExperimentRecord::begin(const deploy::Deployment& deployment, const RunArgu
   if (!written) console.say(rt::LogLevel::kError, written.error());
   simulated_ = arguments.simulated;
   auto acts = replay::ActsWriter::create(
-      arguments.output_folder,
-      simulated_ ? replay::ActsWait::kForTheFile : replay::ActsWait::kNot);
+      arguments.output_folder, simulated_ ? replay::ActsWait::kForTheFile : replay::ActsWait::kNot);
   if (!acts) console.say(rt::LogLevel::kError, acts.error());
   if (!written || !acts) return false;
   acts_ = std::move(acts).value();

@@ -184,9 +184,8 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment, const re
   facts.deployment = recorded.experiment.deployment;
   facts.simulated = true;
   const bool other_turns = arguments.changes.any() || alone != nullptr;
-  replay::Reenactment reenactment(
-      alone == nullptr ? recorded.acts : alone->acts_for(recorded.acts),
-      other_turns ? replay::DueBy::kTime : replay::DueBy::kTurn);
+  replay::Reenactment reenactment(alone == nullptr ? recorded.acts : alone->acts_for(recorded.acts),
+                                  other_turns ? replay::DueBy::kTime : replay::DueBy::kTurn);
   runner::RunOptions run;
   run.simulated = true;
   run.output_folder = recorded.run;
@@ -227,9 +226,9 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment, const re
 
 /// Of a run in real time, microseconds are enough.
 std::string when(base::Time time, base::Time begin) {
-  return base::to_text(begin == base::Time{} ? time - begin
-                                             : std::chrono::floor<std::chrono::microseconds>(time -
-                                                                                             begin));
+  return base::to_text(begin == base::Time{}
+                           ? time - begin
+                           : std::chrono::floor<std::chrono::microseconds>(time - begin));
 }
 
 /// @param begin  of the run's time

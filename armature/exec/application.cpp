@@ -397,8 +397,7 @@ base::Result<std::optional<types::Value>> Application::call(std::string_view com
                         .values = arguments,
                         .caller = caller});
   const std::uint64_t act = parts_->journal.last();
-  return parts_->told(
-      act, parts_->tools.call(component, operation, std::move(arguments), caller));
+  return parts_->told(act, parts_->tools.call(component, operation, std::move(arguments), caller));
 }
 
 base::Result<component::CommandHandle> Application::begin(std::string_view component,

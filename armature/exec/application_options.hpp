@@ -68,7 +68,7 @@ struct RecordedInstants {
 struct ApplicationOptions {
   RealtimeMode realtime = RealtimeMode::kOff;
   bool simulated = false;
-  Pace pace;  ///< of simulated time
+  Pace pace;                  ///< of simulated time
   RecordedInstants instants;  ///< of simulated time
   OnFault on_fault = OnFault::kStopDependents;
   std::vector<Grant> grants;

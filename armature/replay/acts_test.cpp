@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 namespace armature::replay {
 namespace {
 
@@ -46,8 +45,9 @@ TEST(ActsFile, OfARunInRealTimeHasTheTimeAtWhichEachActWasDone) {
   auto writer = ActsWriter::create(folder, ActsWait::kNot);
   ASSERT_TRUE(writer.ok()) << writer.error();
   for (const int ms : {10, 20}) {
-    writer.value()->add(
-        {.kind = Act::Kind::kStart, .component = "Arm", .time = base::time_from_ns(ms * 1'000'000)});
+    writer.value()->add({.kind = Act::Kind::kStart,
+                         .component = "Arm",
+                         .time = base::time_from_ns(ms * 1'000'000)});
   }
   writer.value()->add(
       {.kind = Act::Kind::kDone, .time = base::time_from_ns(21'000'000), .number = 2});

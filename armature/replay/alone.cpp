@@ -106,8 +106,8 @@ class Isolation {
       }
       if (found) continue;
       const base::Hint hint = base::suggestion(name, known);
-      diagnostics_.error({}, "there is no component " + base::quoted(name) + " that could run again",
-                         hint.text);
+      diagnostics_.error(
+          {}, "there is no component " + base::quoted(name) + " that could run again", hint.text);
     }
     for (Index i = 0; i < blueprint_.components.size(); ++i) {
       if (runs(i)) check_chosen(i);
@@ -117,8 +117,8 @@ class Isolation {
   void check_chosen(Index index) {
     const exec::ComponentEntry& entry = blueprint_.components[index];
     if (dynamic_cast<const component::StandIn*>(entry.component.get()) != nullptr) {
-      diagnostics_.error(entry.where,
-                         base::quoted(name_of(index)) + " lives in another process, and was not here");
+      diagnostics_.error(entry.where, base::quoted(name_of(index)) +
+                                          " lives in another process, and was not here");
     } else if (!component::interface_of(*entry.component).observers.empty()) {
       diagnostics_.error(entry.where,
                          base::quoted(name_of(index)) +
@@ -178,8 +178,8 @@ class Isolation {
   /// Recorded under its own name, or under that of an input that it goes to.
   const Recorded* find(const exec::ConnectionPlan& connection) const {
     const std::string input = path_of(*connection.input);
-    for (const std::string& name : {path_of(*connection.output), input,
-                                    input + " (" + path_of(*connection.output) + ")"}) {
+    for (const std::string& name :
+         {path_of(*connection.output), input, input + " (" + path_of(*connection.output) + ")"}) {
       const auto found = channels_.find(name);
       if (found != channels_.end()) return &found->second;
     }
@@ -195,7 +195,8 @@ class Isolation {
       if (inputs_.contains(connection.output)) continue;
       const Recorded* const channel = find(connection);
       const std::string output = path_of(*connection.output);
-      const std::string way = base::quoted(output) + ", which goes to '" + path_of(*connection.input);
+      const std::string way =
+          base::quoted(output) + ", which goes to '" + path_of(*connection.input);
       if (channel == nullptr) {
         diagnostics_.error(connection.entry->where, way + "', is not recorded",
                            "have a Reporter record it (what: [" + output + "]), or let " +
@@ -222,10 +223,10 @@ class Isolation {
                      base::joined(operations) + ")");
     }
     if (missing.empty()) return;
-    diagnostics_.warning(
-        {}, "what is not recorded does not come again: " +
-                base::joined({missing.begin(), missing.end()}),
-        "let those who raise or call run again, too, if it makes a difference");
+    diagnostics_.warning({},
+                         "what is not recorded does not come again: " +
+                             base::joined({missing.begin(), missing.end()}),
+                         "let those who raise or call run again, too, if it makes a difference");
   }
 
   /// Who runs in each cycle of a thread wrote in each of them what it wrote most often.
@@ -411,8 +412,8 @@ class Isolation {
   base::Diagnostics& diagnostics_;
   std::map<std::string, Recorded> channels_;
   std::map<const component::OutputPortBase*, const Recorded*> inputs_;  ///< by who writes them
-  std::set<std::string> given_;                      ///< names of these inputs
-  std::map<Index, std::vector<base::Time>> cycles_;  ///< by thread
+  std::set<std::string> given_;                                         ///< names of these inputs
+  std::map<Index, std::vector<base::Time>> cycles_;                     ///< by thread
 };
 
 Alone Alone::of(const std::vector<std::string>& names, const std::string& folder, bool real_time,

@@ -136,8 +136,7 @@ class Comparer {
       ++found_.missing;
       return;
     }
-    const bool shifted =
-        options_.times && was != nullptr && is != nullptr && was->time != is->time;
+    const bool shifted = options_.times && was != nullptr && is != nullptr && was->time != is->time;
     if (was != nullptr && is != nullptr && !shifted && was->json == is->json) {
       ++found_.equal;
       return;

@@ -33,14 +33,14 @@ struct ComparisonOptions {
   base::Time until = base::Time::max();
   /// The recorder dropped samples, so that one that is missing says nothing.
   bool losses = false;
-  bool times = true;  ///< also when each sample was written
+  bool times = true;                                ///< also when each sample was written
   const std::set<std::string>* channels = nullptr;  ///< only these; nullptr: all
 };
 
 /// What comparing found.
 struct Comparison {
-  std::uint64_t equal = 0;    ///< samples
-  std::size_t channels = 0;   ///< with such samples
+  std::uint64_t equal = 0;   ///< samples
+  std::size_t channels = 0;  ///< with such samples
   std::uint64_t different = 0;
   std::uint64_t missing = 0;  ///< samples that only the replay has: nobody knows what they were
   std::vector<std::string> only_recorded;  ///< channels that the replay lacks

@@ -103,7 +103,8 @@ class FolderComparison {
 
   /// Of some components there is neither a black box nor what a recorder had of others.
   bool is_of_interest(const std::string& name, const Files& replayed) const {
-    return options_.channels == nullptr || (!name.starts_with(kBlackBox) && replayed.contains(name));
+    return options_.channels == nullptr ||
+           (!name.starts_with(kBlackBox) && replayed.contains(name));
   }
 
   void compare_files(const fs::path& was, const fs::path& is) {

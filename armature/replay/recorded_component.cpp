@@ -24,15 +24,14 @@ RecordedComponent::RecordedComponent(std::unique_ptr<component::Component> origi
 RecordedComponent::~RecordedComponent() = default;
 
 base::Result<void> RecordedComponent::add(RecordedOutput output) {
-  const auto port = std::ranges::find(outputs_, output.port,
-                                      [](const auto& one) { return one->name(); });
+  const auto port =
+      std::ranges::find(outputs_, output.port, [](const auto& one) { return one->name(); });
   if (port == outputs_.end()) {
     return base::Error{"'" + name() + "' has no output '" + output.port + "' any more"};
   }
   if (!output.samples.empty()) {
     types::Value value((*port)->type());
-    const auto read =
-        output.recording->read(*output.samples.front(), value.type(), value.data());
+    const auto read = output.recording->read(*output.samples.front(), value.type(), value.data());
     if (!read) return base::Error{read.error()};
   }
   playing_.push_back({port->get(), std::move(output)});
@@ -81,8 +80,7 @@ void RecordedComponent::pass_on(component::InputPortBase& /*input*/, const void*
 }
 
 component::CallStatus RecordedComponent::call(component::OperationBase& /*operation*/,
-                                              const void* const* /*arguments*/,
-                                              void* /*result*/) {
+                                              const void* const* /*arguments*/, void* /*result*/) {
   return component::CallStatus::kUnreachable;
 }
 

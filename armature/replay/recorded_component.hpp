@@ -15,7 +15,7 @@ namespace armature::replay {
 /// Samples of an output of a component, as a recording has them.
 struct RecordedOutput {
   std::string port;
-  const record::McapRecording* recording = nullptr;   ///< outlives the component
+  const record::McapRecording* recording = nullptr;      ///< outlives the component
   std::vector<const record::RecordedSample*> samples{};  ///< in the order of their times
 };
 

@@ -23,8 +23,8 @@ bool Executor::run_in_thread_of(component::Component& component, std::function<v
   if (unreachable_.includes(component)) return false;
   if (context.live) {
     // It may die of this work.
-    const bool done = Task::run_in(context, as_its_own, limit_,
-                                   [&] { return death_notice_.is_about(context); });
+    const bool done =
+        Task::run_in(context, as_its_own, limit_, [&] { return death_notice_.is_about(context); });
     if (done) done_at_ = *at;
     return done;
   }

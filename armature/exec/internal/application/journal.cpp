@@ -29,10 +29,8 @@ void Journal::note_cancelled() {
 
 void Journal::note_refused(std::uint64_t act, std::string why) {
   if (act == 0) return;
-  options_.acts({.kind = Act::Kind::kRefused,
-                 .item = std::move(why),
-                 .time = clock_.now(),
-                 .number = act});
+  options_.acts(
+      {.kind = Act::Kind::kRefused, .item = std::move(why), .time = clock_.now(), .number = act});
 }
 
 void Journal::note_done(std::uint64_t act, base::Time when) {
