@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program with Fast DDS that commands a robot, ten times a second, until it is killed:
 //   ros2_commander DOMAIN joint_trajectory JOINTS TARGET TIME_S    all joints to one position
-//   ros2_commander DOMAIN joint_trajectory JOINTS TARGET TIME_S stop   after two seconds it asks
-//   for a stop, with a stamp before that of the trajectory ros2_commander DOMAIN cmd_vel
-//   FORWARD_M_S TURN_RAD_S ros2_commander DOMAIN listen TOPIC                             reads
-//   joint states, until SIGTERM; prints how many
+//   ros2_commander DOMAIN joint_trajectory JOINTS TARGET TIME_S stop   from SIGTERM on it asks for
+//     a stop instead, with a stamp before that of the trajectory
+//   ros2_commander DOMAIN cmd_vel FORWARD_M_S TURN_RAD_S
+//   ros2_commander DOMAIN listen TOPIC    reads joint states, until SIGTERM; prints how many
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -37,30 +37,30 @@ geometry_msgs::msg::dds_::Twist_ twist_of(double forward, double turn) {
   return message;
 }
 
+volatile std::sig_atomic_t ended = 0;
+
 template <typename Message>
-void send(fast::DataWriter& writer, Message message, int times) {
-  for (int k = 0; k != times; ++k) {
-    writer.write(&message);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
+void send(fast::DataWriter& writer, Message message) {
+  writer.write(&message);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
-constexpr int kForEver = -1;
+
+template <typename Message>
+void send_for_ever(fast::DataWriter& writer, const Message& message) {
+  while (true) send(writer, message);
+}
 
 void send_trajectory(fast::DataWriter& writer, trajectory_msgs::msg::dds_::JointTrajectory_ message,
                      bool stops) {
-  if (!stops) return send(writer, std::move(message), kForEver);
+  if (!stops) return send_for_ever(writer, message);
   message.header().stamp().sec(10);
-  while (!is_matched(writer)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  send(writer, message, 40);
+  while (ended == 0) send(writer, message);
   trajectory_msgs::msg::dds_::JointTrajectory_ stop;
   stop.header().stamp().sec(5);
-  send(writer, stop, kForEver);
+  send_for_ever(writer, stop);
 }
 
-volatile std::sig_atomic_t ended = 0;
-
 int listen(FastPeer& peer, const std::string& topic) {
-  std::signal(SIGTERM, [](int) { ended = 1; });
   auto* const reader = peer.read_from<sensor_msgs::msg::dds_::JointState_PubSubType>(topic);
   std::size_t count = 0;
   sensor_msgs::msg::dds_::JointState_ message;
@@ -77,11 +77,13 @@ int listen(FastPeer& peer, const std::string& topic) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 3) return 2;
+  const bool told_to_end = words[1] == "listen" || words.back() == "stop";
+  if (told_to_end) std::signal(SIGTERM, [](int) { ended = 1; });
   FastPeer peer(std::stoi(words[0]));
   if (words[1] == "listen") return listen(peer, words[2]);
   if (words[1] == "cmd_vel") {
-    send(*peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel"),
-         twist_of(std::stod(words[2]), std::stod(words.at(3))), kForEver);
+    send_for_ever(*peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel"),
+                  twist_of(std::stod(words[2]), std::stod(words.at(3))));
   }
   send_trajectory(
       *peer.write_to<trajectory_msgs::msg::dds_::JointTrajectory_PubSubType>("rt/joint_trajectory"),

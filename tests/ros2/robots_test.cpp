@@ -123,7 +123,10 @@ TEST(JointTrajectory, BrakesAtAStopOfTheCommanderWhateverItsStampAndAtThatOfTheO
   run_beside(janus, 600ms);
   auto stops = commander({"joint_trajectory", "2", "1.2", "8", "stop"});
   ASSERT_TRUE(runs_until(janus, [&] { return moves(janus); })) << janus.reasons();
-  run_beside(janus, 4s);
+  run_beside(janus, 2s);
+  EXPECT_TRUE(moves(janus));
+  stops.send(SIGTERM);
+  run_beside(janus, 2s);
   EXPECT_FALSE(moves(janus));
   EXPECT_EQ(refused(janus), 0u) << janus.reasons();
   EXPECT_LT(measured(janus), 1.0) << "it went on to the end";
