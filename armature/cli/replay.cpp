@@ -20,6 +20,7 @@
 #include "armature/replay/acts.hpp"
 #include "armature/replay/alone.hpp"
 #include "armature/replay/folders.hpp"
+#include "armature/replay/outside.hpp"
 #include "armature/replay/own_files.hpp"
 #include "armature/replay/recorded_component.hpp"
 #include "armature/replay/reenactment.hpp"
@@ -69,6 +70,11 @@ base::Result<Recorded> read_recorded(const ReplayArguments& arguments) {
                        "' was recorded in real time, whose hardware is not here: name the "
                        "components that are to run again on what was recorded (--only "
                        "'Controller,PID*')"};
+  }
+  if (!fs::exists(fs::path(recorded.folder) / replay::kActsFile)) {
+    return base::Error{"'" + arguments.folder + "' has no " + replay::kActsFile +
+                       ", so nobody knows what was done to it: armature run --out FOLDER of this "
+                       "version leaves it in real time, too"};
   }
   auto acts = replay::load_acts(arguments.folder);
   if (!acts) return base::Error{acts.error()};
@@ -123,6 +129,13 @@ void keep_files_in_place(exec::Blueprint& blueprint) {
 bool expect_no_outside(const exec::Blueprint& blueprint, const Console& console) {
   bool inside = true;
   for (const exec::ComponentEntry& entry : blueprint.components) {
+    if (const std::string bus = replay::bus_of_another_process(*entry.component); !bus.empty()) {
+      console.say(LogLevel::kError, "'" + entry.component->name() + "' is on the bus '" + bus +
+                                        "' of another process, which is not what it was: name the "
+                                        "components that are to run again on what was recorded "
+                                        "(--only)");
+      inside = false;
+    }
     const bool observes = !component::interface_of(*entry.component).observers.empty();
     if (!observes || entry.model == "Reporter") continue;
     console.say(LogLevel::kError,
@@ -164,14 +177,15 @@ struct Done {
 
 /// An account of acts may lead on for ever, but nothing is compared behind the last sample. What
 /// was done soon after it is done yet, so that a run that was quiet at its end ends as it did.
-base::Time last_of_interest(const Recorded& recorded, bool cut_off, const Console& console) {
+base::Time last_of_interest(const Recorded& recorded, bool cut_off, base::Time begin,
+                            const Console& console) {
   constexpr base::Duration kQuiet = std::chrono::minutes(1);
   const base::Time last = replay::end_of_recordings(recorded.folder);
   if (cut_off) return last;
   const base::Time bound = base::later(std::max(last, base::Time{}), kQuiet);
   if (recorded.acts.back().act.time >= bound) {
     console.say(LogLevel::kWarning,
-                "the recordings end at " + base::to_text(last - base::Time{}) +
+                "the recordings end at " + time_in_run(last, begin) +
                     "; what was done later than a minute after that is left out");
   }
   return bound;
@@ -203,8 +217,8 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment, const re
   ReplayView view(application, arguments, console);
   if (!view.ok()) return {.failed = true};
   const bool cut_off = reenactment.cut_off();
-  const base::Time last = last_of_interest(recorded, cut_off, console);
   const base::Time begin = alone == nullptr ? base::Time{} : alone->begin();
+  const base::Time last = last_of_interest(recorded, cut_off, begin, console);
   const base::Time asked = arguments.until ? begin + *arguments.until : base::Time::max();
   facts.end = reenactment.run(
       application, std::min(last, asked), [&] { return view.look(); }, alone);
@@ -224,19 +238,12 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment, const re
   return done;
 }
 
-/// Of a run in real time, microseconds are enough.
-std::string when(base::Time time, base::Time begin) {
-  return base::to_text(begin == base::Time{}
-                           ? time - begin
-                           : std::chrono::floor<std::chrono::microseconds>(time - begin));
-}
-
 /// @param begin  of the run's time
 void tell(const replay::Difference& first, base::Time begin, const Console& console) {
   const std::string component(replay::component_of(first.channel));
   const std::string port =
       first.channel.size() > component.size() ? first.channel.substr(component.size() + 1) : "";
-  console.print("first difference at " + when(first.time, begin) + ", " +
+  console.print("first difference at " + time_in_run(first.time, begin) + ", " +
                 (component.empty() ? first.channel
                  : port.empty()    ? "component " + component
                                    : "sample " + std::to_string(first.sequence) + " of component " +
@@ -269,7 +276,7 @@ void add_changed(const std::vector<replay::ChangedOutcome>& changed, replay::Com
 
 void warn_of_changed(const Done& done, const Console& console) {
   for (const replay::ChangedOutcome& each : done.changed) {
-    console.say(LogLevel::kWarning, "at " + when(each.act.time, done.begin) + ", " +
+    console.say(LogLevel::kWarning, "at " + time_in_run(each.act.time, done.begin) + ", " +
                                         name_of(each.act) + ": " + each.is +
                                         "; when it was recorded, " + each.was);
   }
@@ -286,11 +293,12 @@ base::Time begin_of_the_end(const Recorded& recorded) {
 /// @param alone  of components that ran again without the others; may be null
 int compare(const Recorded& recorded, const Done& done, const replay::Alone* alone,
             const Console& console) {
-  const replay::Losses losses = replay::losses_of(recorded.folder, recorded.experiment);
+  replay::Losses losses = replay::losses_of(recorded.folder, recorded.experiment);
+  if (alone != nullptr && losses.known && !alone->has_gaps()) losses.samples = 0;  // of others
   replay::ComparisonOptions options;
   options.losses = !losses.known || losses.samples > 0;
   options.until = done.until;
-  if (alone != nullptr) options.channels = &alone->channels();
+  if (alone != nullptr) options.channels = &alone->compared();
   if (!recorded.experiment.simulated) {
     options.times = false;  // a thread wakes up some time after who sent it something
     options.until = std::min(options.until, begin_of_the_end(recorded));

@@ -7,19 +7,19 @@
 #include "armature/platform/terminal.hpp"
 
 namespace armature::cli {
-namespace {
-
-std::string time_text(const exec::Application& application) {
-  return base::to_text(application.now() - base::Time{});
+std::string time_in_run(base::Time time, base::Time begin) {
+  const base::Duration since = time - begin;
+  return base::to_text(begin == base::Time{}
+                           ? since
+                           : std::chrono::floor<std::chrono::microseconds>(since));
 }
-
-}  // namespace
 
 ReplayView::ReplayView(exec::Application& application, const ReplayArguments& arguments,
                        const Console& console)
     : application_(application),
       console_(console),
       changed_(application),
+      begin_(application.now()),
       steps_(arguments.step),
       at_terminal_(platform::is_terminal(platform::kStandardInput) &&
                    platform::is_terminal(platform::kStandardOutput)) {
@@ -42,7 +42,7 @@ bool ReplayView::look() {
   if (steps_) {
     const std::string changes = changed_.look();
     if (!changes.empty()) {
-      console_.print(time_text(application_) + "  " + changes + "\n");
+      console_.print(time_in_run(application_.now(), begin_) + "  " + changes + "\n");
       waits = true;
     }
   }
@@ -54,7 +54,7 @@ bool ReplayView::look_at_breakpoints() {
   for (replay::Breakpoint& breakpoint : breakpoints_) {
     const auto why = breakpoint.look();
     if (!why) continue;
-    console_.print("break at " + time_text(application_) + ": " + *why + " (" + breakpoint.text() +
+    console_.print("break at " + time_in_run(application_.now(), begin_) + ": " + *why + " (" + breakpoint.text() +
                    ")\n");
     any = true;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,13 +14,16 @@
 
 namespace armature::cli {
 
+/// Since the begin of a run; of one in real time, which began at some time, in microseconds.
+std::string time_in_run(base::Time time, base::Time begin);
+
 /// Looks on while a run is done again: a line for each instant at which something changes
 /// (`--step`), and where a condition becomes true (`--break`). At a terminal the replay waits there
 /// for a key; through a pipe it goes on.
 class ReplayView {
  public:
   /// Says what is wrong with the conditions.
-  /// @param application  runs, and outlives it, like the others
+  /// @param application  has been started, and outlives it, like the others
   ReplayView(exec::Application& application, const ReplayArguments& arguments,
              const Console& console);
   bool ok() const { return ok_; }
@@ -37,6 +41,7 @@ class ReplayView {
   const Console& console_;
   std::vector<replay::Breakpoint> breakpoints_;
   replay::ChangedPorts changed_;
+  const base::Time begin_;  ///< of the run's time
   bool steps_;
   const bool at_terminal_;
   bool ok_ = true;

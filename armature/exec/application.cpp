@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/quoted.hpp"
 #include "armature/exec/internal/application/before_stop.hpp"
 #include "armature/exec/internal/application/clock.hpp"
@@ -76,6 +77,14 @@ void refuse_hardware(const Plan& plan, base::Diagnostics& diagnostics) {
                           ", which does not follow simulated time",
                       "run it in real time, or on a simulated robot");
   }
+}
+
+/// Who is configured anew may have been given hardware since the application was checked.
+Outcome expect_no_hardware(const Blueprint& blueprint) {
+  base::Diagnostics diagnostics;
+  refuse_hardware(make_plan(blueprint, diagnostics), diagnostics);
+  return diagnostics.ok() ? component::accepted()
+                          : component::refused(base::as_reason(diagnostics));
 }
 
 }  // namespace
@@ -329,6 +338,12 @@ std::vector<ThreadStatistics> Application::thread_statistics() const {
 Outcome Application::start_component(std::string_view name) {
   parts_->journal.note({.kind = Act::Kind::kStart, .component = std::string(name)});
   const std::uint64_t act = parts_->journal.last();
+  const component::Component* const starts = find(name);
+  if (parts_->options.simulated && starts != nullptr && !starts->is_configured()) {
+    if (const Outcome outcome = expect_no_hardware(blueprint()); !outcome) {
+      return parts_->told(act, outcome);
+    }
+  }
   return parts_->told(act, parts_->transitions.start(name));
 }
 

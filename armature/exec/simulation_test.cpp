@@ -71,6 +71,39 @@ TEST(Simulation, PassesAsRealTimeOnceDid) {
                           "Recorded 106", "Periodic 106", "Periodic 108"));
 }
 
+/// Drives what its bus is, once it has one.
+class OnABus final : public component::Component {
+ public:
+  using Component::Component;
+  void on_check(component::Check& check) const override {
+    if (!bus_.get().empty()) check.drives_hardware(bus_.get());
+  }
+
+ private:
+  component::Property<std::string> bus_{this, "bus", "", "the bus"};
+};
+
+TEST(Simulation, NobodyIsConfiguredAnewToDriveARealRobot) {
+  Blueprint blueprint;
+  blueprint.add<OnABus>("Drive", Activity::periodic(1ms));
+  Application application(std::move(blueprint), patient(true));
+  ASSERT_TRUE(application.start().ok());
+  const auto start_anew = [&](const std::string& bus) {
+    EXPECT_TRUE(application.stop_component("Drive"));
+    EXPECT_TRUE(application.clean_up_component("Drive"));
+    EXPECT_TRUE(application.set_property("Drive", "bus", types::Value::of(bus)).ok());
+    return application.start_component("Drive");
+  };
+  EXPECT_TRUE(start_anew(""));
+  const auto refused = start_anew("can0");
+  EXPECT_FALSE(refused);
+  EXPECT_THAT(std::string(refused.reason()),
+              ::testing::HasSubstr("'Drive' drives a real robot by can0"));
+  EXPECT_FALSE(application.find("Drive")->is_configured());
+  EXPECT_TRUE(application.set_property("Drive", "bus", types::Value::of(std::string())).ok());
+  EXPECT_TRUE(application.start_component("Drive"));
+}
+
 TEST(Simulation, ATriggeredThreadRunsAtTheTimeOfItsTriggerWhenItsTurnComes) {
   Scene scene;
   Probe& fast = scene.add("Fast", Activity::periodic(1ms, 50));

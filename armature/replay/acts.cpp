@@ -28,6 +28,8 @@ using types::name_of;
 
 /// Of a disk that hangs, no more is kept than this [bytes].
 constexpr std::size_t kMostWaiting = 4u << 20;
+/// Of a run in real time, which nobody may end for years, this much is enough [bytes].
+constexpr std::size_t kMostInRealTime = 256u << 20;
 
 constexpr base::Duration kPatience = std::chrono::seconds(1);
 
@@ -114,9 +116,11 @@ struct ActsWriter::State {
   std::mutex mutex;
   std::condition_variable changed;
   std::string waiting;
+  std::size_t taken = 0;  ///< bytes
   std::uint64_t lost = 0;
   bool writing = false;
   bool ending = false;
+  bool in_order = true;    ///< each act is in the file before it is done; else in real time
   bool waited_for = true;  ///< until the disk is too slow
   std::optional<base::Error> failure;
   platform::OutputFile file;  ///< the thread's
@@ -154,7 +158,7 @@ base::Result<std::unique_ptr<ActsWriter>> ActsWriter::create(const std::string& 
   auto file = platform::OutputFile::create(folder + '/' + kActsFile);
   if (!file) return base::Error{file.error()};
   auto state = std::make_shared<State>(std::move(file).value());
-  state->waited_for = wait == ActsWait::kForTheFile;
+  state->in_order = state->waited_for = wait == ActsWait::kForTheFile;
   return std::unique_ptr<ActsWriter>(new ActsWriter(std::move(state)));
 }
 
@@ -163,10 +167,14 @@ ActsWriter::~ActsWriter() { static_cast<void>(close()); }
 void ActsWriter::add(const Act& act) {
   const std::string line = line_of(act);
   std::unique_lock lock(state_->mutex);
-  if (state_->waiting.size() + line.size() > kMostWaiting) {
-    ++state_->lost;
+  const bool enough = !state_->in_order && state_->taken + line.size() > kMostInRealTime;
+  const bool too_much = enough || state_->waiting.size() + line.size() > kMostWaiting;
+  // Acts are counted: behind one that is lost there is none.
+  if (state_->lost > 0 || too_much) {
+    if (state_->lost++ == 0) state_->waiting += written({{"lost", true}});
     return;
   }
+  state_->taken += line.size();
   state_->waiting += line;
   state_->changed.notify_all();
   if (!state_->waited_for) return;
@@ -190,7 +198,8 @@ base::Result<void> ActsWriter::close() {
   if (failure) return *failure;
   if (complete) return {};
   return base::Error{"not all acts are in '" + state_->file.path() +
-                     "', since the disk is too slow: this run cannot be replayed"};
+                     "', since the disk is too slow, or there were too many: this run cannot be "
+                     "replayed"};
 }
 
 base::Result<std::vector<RecordedAct>> parse_acts(std::string_view text, const std::string& path) {
@@ -202,6 +211,9 @@ base::Result<std::vector<RecordedAct>> parse_acts(std::string_view text, const s
     rest.remove_prefix(line.size() + 1);
     try {
       const Json json = Json::parse(line);
+      if (json.contains("lost")) {
+        return base::Error{place + "acts are missing from here on: this run cannot be replayed"};
+      }
       if (json.contains("refused") || json.contains("done")) {
         if (!take_outcome(json, acts)) return base::Error{place + "there is no such act"};
         continue;

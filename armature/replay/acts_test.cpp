@@ -68,6 +68,7 @@ TEST(ActsFile, ThatIsWrongIsRefusedWithItsLine) {
   EXPECT_THAT(problem_in(R"({"refused":0,"why":""})"), HasSubstr("no such act"));
   EXPECT_THAT(problem_in(good + "\n{\"done\":2,\"time_ns\":1}"), HasSubstr("no such act"));
   EXPECT_THAT(problem_in(R"({"time_ns":1,"turn":1,"act":"done"})"), HasSubstr("unknown act"));
+  EXPECT_THAT(problem_in(good + "\n{\"lost\":true}"), HasSubstr("acts are missing from here on"));
   EXPECT_THAT(problem_in(R"({"time_ns":1e300,"turn":1,"act":"end"})"),
               HasSubstr("time_ns must be a whole number"));
   EXPECT_THAT(problem_in(R"({"time_ns":1,"turn":-1,"act":"end"})"),

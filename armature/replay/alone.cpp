@@ -2,6 +2,7 @@
 #include "armature/replay/alone.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -15,26 +16,13 @@
 #include "armature/exec/inlets.hpp"
 #include "armature/exec/modes.hpp"
 #include "armature/replay/comparison.hpp"
-#include "armature/replay/folders.hpp"
+#include "armature/replay/outside.hpp"
 
 namespace armature::replay {
 
 using exec::Index;
 
 namespace {
-
-/// Of a channel: all of its samples, in the order of their times.
-struct Recorded {
-  const record::McapRecording* recording = nullptr;
-  std::vector<const record::RecordedSample*> samples{};
-};
-
-/// Whether no sample is missing: they are counted from 1.
-bool is_complete(const Recorded& channel) {
-  std::uint32_t number = 0;
-  return std::ranges::all_of(channel.samples,
-                             [&](const auto* sample) { return sample->sequence == ++number; });
-}
 
 std::string path_of(const component::PortBase& port) {
   return port.owner().name() + '.' + port.name();
@@ -82,23 +70,17 @@ class Isolation {
            dynamic_cast<const exec::Inlets*>(entry.component.get()) != nullptr;
   }
 
-  /// A bus that another process simulates (can/make_bus.hpp).
-  static std::string virtual_bus_of(const component::Component& component) {
-    for (const auto* const property : component::interface_of(component).properties) {
-      if (property->type().kind != types::Kind::kText) continue;
-      std::string text = types::to_text(property->type(), property->data());
-      if (text.starts_with("virtual:")) return text;
-    }
-    return {};
-  }
-
   void choose(const std::vector<std::string>& names) {
     std::vector<std::string> known;
     for (const exec::ComponentEntry& entry : blueprint_.components) {
-      if (!stays(entry)) known.push_back(entry.component->name());
+      if (stays(entry)) {
+        alone_.there_.insert(entry.component->name());
+      } else {
+        known.push_back(entry.component->name());
+      }
     }
     for (const std::string& name : names) {
-      bool found = false;
+      bool found = alone_.there_.contains(name);
       for (const std::string& one : known) {
         if (!base::matches(name, one)) continue;
         alone_.names_.insert(one);
@@ -110,7 +92,11 @@ class Isolation {
           {}, "there is no component " + base::quoted(name) + " that could run again", hint.text);
     }
     for (Index i = 0; i < blueprint_.components.size(); ++i) {
-      if (runs(i)) check_chosen(i);
+      if (!runs(i)) continue;
+      check_chosen(i);
+      for (const auto* const output : component::interface_of(at(i)).outputs) {
+        outputs_.insert(path_of(*output));
+      }
     }
   }
 
@@ -125,7 +111,7 @@ class Isolation {
                              " speaks to others outside of this process, which are not what they "
                              "were: it cannot run again");
     }
-    if (const std::string bus = virtual_bus_of(*entry.component); !bus.empty()) {
+    if (const std::string bus = bus_of_another_process(*entry.component); !bus.empty()) {
       diagnostics_.error(entry.where, base::quoted(name_of(index)) + " is on the bus '" + bus +
                                           "' of another process: it does not run again");
     }
@@ -154,46 +140,54 @@ class Isolation {
       bool caller_runs) const {
     std::map<std::pair<Index, Index>, std::vector<std::string>> calls;
     for (const exec::CallPlan& call : plan_.calls) {
-      if (runs(call.caller) != caller_runs || runs(call.callee) == caller_runs) continue;
+      const bool callee_runs = runs(call.callee) || stays(at_entry(call.callee));
+      if (runs(call.caller) != caller_runs || callee_runs == caller_runs) continue;
       calls[{call.caller, call.callee}].emplace_back(call.operation->name());
     }
     return calls;
   }
 
   void read(const std::string& folder) {
-    alone_.recordings_ = load_recordings(folder, diagnostics_);
-    base::Time begin = base::Time::max();
-    for (const auto& recording : alone_.recordings_) {
-      for (const record::RecordedSample& sample : recording->samples) {
-        Recorded& channel = channels_[recording->channels[sample.channel].name];
-        if (channel.recording != nullptr && channel.recording != recording.get()) continue;
-        channel.recording = recording.get();
-        channel.samples.push_back(&sample);
-        begin = std::min(begin, sample.time);
-      }
+    std::set<std::string> files;
+    for (const exec::ComponentEntry& entry : blueprint_.components) {
+      if (is_reporter(entry)) files.insert(file_of(entry));
     }
-    if (real_time_ && begin != base::Time::max()) alone_.begin_ = begin;
+    alone_.channels_ = std::make_unique<RecordedChannels>(folder, files, diagnostics_);
+    if (real_time_) alone_.begin_ = alone_.channels_->begin();
+  }
+
+  static component::PropertyBase* property_of(const exec::ComponentEntry& entry,
+                                              std::string_view name) {
+    for (component::PropertyBase* const property :
+         component::interface_of(*entry.component).properties) {
+      if (property->name() == name) return property;
+    }
+    return nullptr;
+  }
+
+  /// Of a recorder, without its folder: all are in that of the run.
+  static std::string file_of(const exec::ComponentEntry& entry) {
+    const component::PropertyBase* const file = property_of(entry, "file");
+    if (file == nullptr) return {};
+    return std::filesystem::path(types::to_text(file->type(), file->data())).filename().string();
   }
 
   /// Recorded under its own name, or under that of an input that it goes to.
-  const Recorded* find(const exec::ConnectionPlan& connection) const {
+  const RecordedChannel* find(const exec::ConnectionPlan& connection) const {
     const std::string input = path_of(*connection.input);
-    for (const std::string& name :
-         {path_of(*connection.output), input, input + " (" + path_of(*connection.output) + ")"}) {
-      const auto found = channels_.find(name);
-      if (found != channels_.end()) return &found->second;
+    const std::string output = path_of(*connection.output);
+    for (const std::string& name : {output, input, input + " (" + output + ")"}) {
+      if (const RecordedChannel* const found = alone_.channels_->find(name)) return found;
     }
     return nullptr;
   }
 
   void find_inputs() {
     for (const exec::ConnectionPlan& connection : plan_.connections) {
-      if (!runs(connection.to) || runs(connection.from) || stays(at_entry(connection.from))) {
-        continue;
-      }
+      if (!runs(connection.to) || runs(connection.from)) continue;
       given_.insert(path_of(*connection.input));
-      if (inputs_.contains(connection.output)) continue;
-      const Recorded* const channel = find(connection);
+      if (stays(at_entry(connection.from)) || inputs_.contains(connection.output)) continue;
+      const RecordedChannel* const channel = find(connection);
       const std::string output = path_of(*connection.output);
       const std::string way =
           base::quoted(output) + ", which goes to '" + path_of(*connection.input);
@@ -201,9 +195,9 @@ class Isolation {
         diagnostics_.error(connection.entry->where, way + "', is not recorded",
                            "have a Reporter record it (what: [" + output + "]), or let " +
                                base::quoted(name_of(connection.from)) + " run again, too");
-      } else if (!is_complete(*channel)) {
+      } else if (!channel->is_complete()) {
         diagnostics_.error(connection.entry->where, way + "', is recorded with gaps",
-                           "record it without 'every' and 'on_change', with a larger 'buffer'");
+                           "record it all the time, without 'every' and 'on_change', with a larger 'buffer'");
       } else {
         inputs_.emplace(connection.output, channel);
       }
@@ -235,39 +229,30 @@ class Isolation {
       const exec::ThreadPlan& thread = plan_.threads[i];
       const bool runs_here = std::ranges::any_of(thread.updating, [&](Index k) { return runs(k); });
       if (thread.activity.kind != exec::Activity::Kind::kPeriodic || !runs_here) continue;
-      if (const Recorded* const most = most_recorded(thread.updating)) {
-        cycles_[i] = times_of(*most);
+      if (const RecordedChannel* const most = most_recorded(thread.updating)) {
+        cycles_[i] = most->times();
         continue;
       }
       diagnostics_.warning({},
-                           "nothing is recorded that the thread " + base::quoted(thread.name) +
-                               " writes in each cycle: its cycles come once a period, from the "
+                           "nothing is recorded without gaps that the thread " +
+                               base::quoted(thread.name) + " writes in each cycle: its cycles come once a period, from the "
                                "begin of the recordings on",
                            "have a Reporter record such an output");
     }
   }
 
-  /// Of the outputs of those that run.
-  const Recorded* most_recorded(const std::vector<Index>& components) const {
-    const Recorded* most = nullptr;
+  /// Of the outputs of those that run, one without gaps.
+  const RecordedChannel* most_recorded(const std::vector<Index>& components) const {
+    const RecordedChannel* most = nullptr;
     for (const Index i : components) {
       if (!runs(i)) continue;
       for (const auto* const output : component::interface_of(at(i)).outputs) {
-        const auto channel = channels_.find(path_of(*output));
-        if (channel == channels_.end()) continue;
-        const Recorded& one = channel->second;
-        if (most == nullptr || most->samples.size() < one.samples.size()) most = &one;
+        const RecordedChannel* const one = alone_.channels_->find(path_of(*output));
+        if (one == nullptr || one->samples.empty() || !one->is_complete()) continue;
+        if (most == nullptr || most->samples.size() < one->samples.size()) most = one;
       }
     }
     return most;
-  }
-
-  static std::vector<base::Time> times_of(const Recorded& channel) {
-    std::vector<base::Time> times;
-    for (const record::RecordedSample* const sample : channel.samples) {
-      if (times.empty() || sample->time > times.back()) times.push_back(sample->time);
-    }
-    return times;
   }
 
   /// Data that comes to who is recorded only tells it when in a cycle to write, and that in the
@@ -299,14 +284,14 @@ class Isolation {
       for (const auto* const output : component::interface_of(*entry.component).outputs) {
         const auto input = inputs_.find(output);
         if (input == inputs_.end()) continue;
-        outputs.push_back({output->name(), input->second->recording, input->second->samples});
+        outputs.push_back({output->name(), input->second->recording, input->second->samples,
+                           is_told_later(i) && stays_in_thread(*output)});
       }
       auto recorded = std::make_unique<RecordedComponent>(std::move(entry.component));
       for (RecordedOutput& output : outputs) {
         const auto added = recorded->add(std::move(output));
         if (!added) diagnostics_.error(entry.where, added.error());
       }
-      if (is_told_later(i)) recorded->write_when_told();
       replaced[i] = recorded.get();
       entry.component = std::move(recorded);
       entry.peers.clear();
@@ -335,6 +320,13 @@ class Isolation {
            });
   }
 
+  /// Other threads read in cycles of their own, behind this one.
+  bool stays_in_thread(const component::OutputPortBase& output) const {
+    return std::ranges::all_of(plan_.connections, [&](const exec::ConnectionPlan& one) {
+      return one.output != &output || plan_.thread_of[one.from] == plan_.thread_of[one.to];
+    });
+  }
+
   void seat(Index thread, exec::RecordedInstants& instants) {
     const exec::ThreadPlan& plan = plan_.threads[thread];
     if (plan.activity.kind != exec::Activity::Kind::kPeriodic) return;
@@ -357,7 +349,7 @@ class Isolation {
     std::erase_if(blueprint_.components, [&](exec::ComponentEntry& entry) {
       return is_reporter(entry) && !record_those_alone(entry);
     });
-    if (!alone_.channels_.empty()) return;
+    if (has_output_) return;
     diagnostics_.error({},
                        "nothing is recorded of what " +
                            base::joined({alone_.names_.begin(), alone_.names_.end()}) +
@@ -367,18 +359,9 @@ class Isolation {
 
   /// @return whether there is anything left to be recorded
   bool record_those_alone(exec::ComponentEntry& entry) {
-    std::vector<std::string> what;
-    for (component::PropertyBase* const property :
-         component::interface_of(*entry.component).properties) {
-      if (property->name() == "file") {
-        what = channels_of(types::to_text(property->type(), property->data()));
-      }
-    }
+    const std::vector<std::string> what = of_interest_in(file_of(entry));
     const auto set = [&](std::string_view name, const types::Value& value) {
-      for (component::PropertyBase* const property :
-           component::interface_of(*entry.component).properties) {
-        if (property->name() == name) static_cast<void>(property->set(value));
-      }
+      if (auto* const property = property_of(entry, name)) static_cast<void>(property->set(value));
     };
     set("what", types::Value::of(what));
     set("joints", types::Value::of(std::vector<std::string>()));
@@ -386,22 +369,29 @@ class Isolation {
     return !what.empty();
   }
 
-  /// Of the recording with this file's name: what components that run make of it.
-  std::vector<std::string> channels_of(const std::string& file) {
+  /// What components that run are given, and what they make of it, which is compared.
+  std::vector<std::string> of_interest_in(const std::string& file) {
     std::vector<std::string> names;
-    const auto name_in = [](std::string_view path) { return path.substr(path.rfind('/') + 1); };
-    for (const auto& recording : alone_.recordings_) {
-      if (name_in(recording->file) != name_in(file)) continue;
-      for (const record::RecordedChannel& channel : recording->channels) {
-        const std::string name = channel.name.substr(0, channel.name.find(" ("));
-        const bool given = given_.contains(name) ||
-                           !alone_.names_.contains(std::string(component_of(channel.name)));
-        if (given) continue;
-        alone_.channels_.insert(channel.name);
-        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-      }
+    for (const std::string& channel : alone_.channels_->in_file(file)) {
+      if (!alone_.names_.contains(std::string(component_of(channel)))) continue;
+      const std::string name = channel.substr(0, channel.find(" ("));
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      if (given_.contains(name)) continue;
+      alone_.compared_.insert(channel);
+      const RecordedChannel& recorded = *alone_.channels_->find(channel);
+      if (!recorded.is_complete()) alone_.gaps_ = true;
+      if (writes(name) && !recorded.samples.empty()) has_output_ = true;
     }
     return names;
+  }
+
+  /// Whether a component that runs writes what has this name: an output, or what goes to an input.
+  bool writes(const std::string& name) const {
+    return std::ranges::any_of(plan_.connections,
+                               [&](const exec::ConnectionPlan& one) {
+                                 return runs(one.from) && path_of(*one.input) == name;
+                               }) ||
+           std::ranges::any_of(outputs_, [&](const std::string& one) { return one == name; });
   }
 
   Alone& alone_;
@@ -410,10 +400,11 @@ class Isolation {
   exec::Blueprint& blueprint_;
   const exec::Plan& plan_;
   base::Diagnostics& diagnostics_;
-  std::map<std::string, Recorded> channels_;
-  std::map<const component::OutputPortBase*, const Recorded*> inputs_;  ///< by who writes them
-  std::set<std::string> given_;                                         ///< names of these inputs
-  std::map<Index, std::vector<base::Time>> cycles_;                     ///< by thread
+  std::map<const component::OutputPortBase*, const RecordedChannel*> inputs_;  ///< by their writers
+  std::set<std::string> given_;                      ///< names of these inputs
+  std::set<std::string> outputs_;                    ///< names, of components that run
+  std::map<Index, std::vector<base::Time>> cycles_;  ///< by thread
+  bool has_output_ = false;                          ///< something that they wrote is recorded
 };
 
 Alone Alone::of(const std::vector<std::string>& names, const std::string& folder, bool real_time,
@@ -431,7 +422,7 @@ std::vector<RecordedAct> Alone::acts_for(std::vector<RecordedAct> acts) const {
     if (act.component.empty()) return false;
     const std::string component(act.kind == exec::Act::Kind::kWrite ? component_of(act.item)
                                                                     : act.component);
-    if (!names_.contains(component)) return true;
+    if (!names_.contains(component) && !there_.contains(component)) return true;
     if (act.kind == exec::Act::Kind::kBegin) begun.insert(act.command);
     return false;
   });

@@ -9,8 +9,8 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
 #include "armature/deploy/deployment.hpp"
-#include "armature/record/mcap_reader.hpp"
 #include "armature/replay/acts.hpp"
+#include "armature/replay/recorded_channels.hpp"
 #include "armature/replay/recorded_component.hpp"
 
 namespace armature::replay {
@@ -31,8 +31,10 @@ class Alone {
   /// Of acts those that concern components which run.
   std::vector<RecordedAct> acts_for(std::vector<RecordedAct> acts) const;
 
-  /// What was recorded of their own doing.
-  const std::set<std::string>& channels() const { return channels_; }
+  /// Channels with what was recorded of their own doing.
+  const std::set<std::string>& compared() const { return compared_; }
+  /// Whether samples are missing in these.
+  bool has_gaps() const { return gaps_; }
   /// Of the run's time: in real time the first in the recordings, since nobody knows more of it.
   base::Time begin() const { return begin_; }
   /// When something recorded is to be written next.
@@ -44,9 +46,11 @@ class Alone {
   friend class Isolation;
 
   std::set<std::string> names_;
-  std::set<std::string> channels_;
+  std::set<std::string> there_;  ///< what is of the runtime, and recorders
+  std::set<std::string> compared_;
+  bool gaps_ = false;
   base::Time begin_{};
-  std::vector<std::unique_ptr<record::McapRecording>> recordings_;
+  std::unique_ptr<RecordedChannels> channels_;
   std::vector<RecordedComponent*> recorded_;  ///< writers before readers
 };
 

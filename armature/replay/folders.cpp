@@ -174,10 +174,11 @@ base::Time end_in(const nlohmann::json& one, const nlohmann::json& other) {
 }  // namespace
 
 std::vector<std::unique_ptr<record::McapRecording>> load_recordings(
-    const std::string& folder, base::Diagnostics& diagnostics) {
+    const std::string& folder, const std::set<std::string>& names,
+    base::Diagnostics& diagnostics) {
   std::vector<std::unique_ptr<record::McapRecording>> all;
   for (const fs::path& file : recordings_in(folder)) {
-    if (file.filename().string().starts_with(kBlackBox)) continue;
+    if (!names.contains(file.filename().string())) continue;
     auto recording = record::load_mcap(file.string(), record::Unclosed::kReadToLastChunk);
     if (recording) {
       all.push_back(std::make_unique<record::McapRecording>(std::move(recording).value()));

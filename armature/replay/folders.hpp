@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ inline constexpr const char* kReplayFile = "replay.json";
 /// Whether the run in `folder` recorded anything.
 bool has_recordings(const std::string& folder);
 
-/// All recordings of the run in `folder`, but black boxes.
-std::vector<std::unique_ptr<record::McapRecording>> load_recordings(const std::string& folder,
-                                                                    base::Diagnostics& diagnostics);
+/// Recordings in the folder of a run.
+/// @param names  of their files; those that are not there are left out
+std::vector<std::unique_ptr<record::McapRecording>> load_recordings(
+    const std::string& folder, const std::set<std::string>& names, base::Diagnostics& diagnostics);
 
 /// Samples that the recorders of a run dropped, or could not write, as its summary says.
 struct Losses {

@@ -50,15 +50,25 @@ base::Time RecordedComponent::next() const {
 }
 
 /// In the order of time; of one time each output's next in turn, as a component writes them.
-void RecordedComponent::play() {
+template <typename Chosen>
+void RecordedComponent::play_those(const Chosen& chosen) {
   const rt::PermitScope allocates;
-  for (base::Time first = next(); first <= time(); first = next()) {
+  while (true) {
+    base::Time first = base::Time::max();
+    for (const Playing& each : playing_) {
+      if (chosen(each)) first = std::min(first, next_of(each));
+    }
+    if (first > time()) return;
     for (Playing& each : playing_) {
-      if (next_of(each) != first) continue;
+      if (!chosen(each) || next_of(each) != first) continue;
       const record::RecordedSample& sample = *each.recorded.samples[each.next++];
       if (state() == component::State::kRunning) write(each, sample);
     }
   }
+}
+
+void RecordedComponent::play() {
+  play_those([](const Playing& /*one*/) { return true; });
 }
 
 void RecordedComponent::write(Playing& one, const record::RecordedSample& sample) {
@@ -70,13 +80,9 @@ void RecordedComponent::write(Playing& one, const record::RecordedSample& sample
   }
 }
 
-void RecordedComponent::on_update() {
-  if (by_itself_) play();
-}
-
 /// What triggered the original may have had it write.
 void RecordedComponent::pass_on(component::InputPortBase& /*input*/, const void* /*value*/) {
-  if (by_itself_) play();
+  on_update();
 }
 
 component::CallStatus RecordedComponent::call(component::OperationBase& /*operation*/,

@@ -17,6 +17,9 @@ struct RecordedOutput {
   std::string port;
   const record::McapRecording* recording = nullptr;      ///< outlives the component
   std::vector<const record::RecordedSample*> samples{};  ///< in the order of their times
+  /// They are not written when the component's cycle comes, or something to it, but when it is told
+  /// to play.
+  bool when_told = false;
 };
 
 /// Stands for a component of a recorded run that does not run again: at the times at which that one
@@ -27,8 +30,6 @@ class RecordedComponent final : public component::StandIn {
   explicit RecordedComponent(std::unique_ptr<component::Component> original);
   ~RecordedComponent() override;
 
-  /// It does not write when its cycle comes, or something to it, but when it is told to play.
-  void write_when_told() { by_itself_ = false; }
   /// Has an output write samples; the error says why they do not fit.
   /// @thread configuration only
   base::Result<void> add(RecordedOutput output);
@@ -50,9 +51,12 @@ class RecordedComponent final : public component::StandIn {
     component::OutputPortBase* port;
     RecordedOutput recorded;
     std::size_t next = 0;
+    bool by_itself() const { return !recorded.when_told; }
   };
 
-  void on_update() override;
+  void on_update() override { play_those([](const Playing& one) { return one.by_itself(); }); }
+  template <typename Chosen>
+  void play_those(const Chosen& chosen);
   base::Time next_of(const Playing& one) const;
   void write(Playing& one, const record::RecordedSample& sample);
 
@@ -62,7 +66,6 @@ class RecordedComponent final : public component::StandIn {
   std::vector<std::unique_ptr<component::OperationBase>> operations_;
   std::vector<std::unique_ptr<component::EventBase>> events_;
   std::vector<Playing> playing_;
-  bool by_itself_ = true;
 };
 
 }  // namespace armature::replay

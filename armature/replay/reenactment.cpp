@@ -8,6 +8,7 @@
 #include "armature/exec/inlets.hpp"
 #include "armature/inspect/items.hpp"
 #include "armature/record/json.hpp"
+#include "armature/replay/outside.hpp"
 
 namespace armature::replay {
 
@@ -141,6 +142,9 @@ std::string Reenactment::perform(const Act& act, std::vector<Value> values) {
       return {};
     }
     case Kind::kSet:
+      if (is_of_another_process(values.front().text())) {
+        return "a replay uses no bus of another process";
+      }
       return refusal_in(
           application.set_property(act.component, act.item, values.front(), act.caller));
     case Kind::kWrite:

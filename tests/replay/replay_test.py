@@ -347,6 +347,14 @@ class Janus(Recorded):
         change(f"{folder}/experiment.json", "janus.urdf", "gone.urdf")
         self.assertIn("is not what it was when the run was recorded", self.replay(folder).stderr)
 
+    def test_an_act_puts_nobody_on_a_bus_of_another_process(self):
+        folder = self.run_of("wam/demo/npid.yaml", WAM_ESTOP, "wam", code=1)
+        change_acts(folder, lambda acts: acts.insert(
+            1, {"time_ns": 1, "turn": 0, "act": "set", "component": "WAM", "item": "bus",
+                "values": ['{"value":"virtual:/tmp/nobody"}']}))
+        told = self.replay(folder, code=5).stdout
+        self.assertIn("it is refused: a replay uses no bus of another process", told)
+
     def test_wrong_folders_are_refused(self):
         self.assertIn("is no folder", self.replay(f"{self.root}/nowhere", code=1).stderr)
         empty = tempfile.mkdtemp(dir=self.root)
@@ -515,7 +523,8 @@ class Alone(Recorded):
                       "likewise 'Joint2.Displacement' (have a Reporter record it (what: "
                       "[Joint1.Displacement]), or let 'Joint1' run again, too)", told)
         told = self.replay(self.recorded("--set", "Reporter.every=2"), "--only", "PID1", code=1).stderr
-        self.assertIn("is recorded with gaps (record it without 'every' and 'on_change'", told)
+        self.assertIn("is recorded with gaps (record it all the time, without 'every' and "
+                      "'on_change'", told)
 
     def test_call_nobody_who_does_not_run(self):
         told = self.replay(self.recorded(), "--only", "Joint1", code=1).stderr
@@ -534,6 +543,26 @@ class Alone(Recorded):
                "bus: 'virtual:/tmp/nobody'}")
         told = self.replay(folder, "--only", "Cards", code=1).stderr
         self.assertIn("'Cards' is on the bus 'virtual:/tmp/nobody' of another process", told)
+
+        told = self.replay(self.recorded("--set", "Reporter.what=[Sensor.sensor, PID1.Kp, PID1.Ref, "
+                                         "PID1.Sen]"), "--only", "PID1", code=1).stderr
+        self.assertIn("nothing is recorded of what PID1 wrote", told)
+
+    def test_go_over_to_another_mode(self):
+        store(f"{self.root}/modes.yaml", {
+            "include": [f"{ROBOTS}/janus/deployments/modes.yaml"], "libraries": ["record"],
+            "grants": {"script": ["Arming.arm"]},
+            "components": {"Reporter": {
+                "model": "Reporter", "activity": {"periodic": "50 ms", "scheduler": "other"},
+                "properties": {"what": ["*.*"], "file": "modes.mcap", "buffer": 5000}}}})
+        folder = self.run_of(os.path.relpath(f"{self.root}/modes.yaml", ROBOTS), JANUS.replace("PID1.Kp = 410", 'Modes:switch("feed_forward")'), "modes")
+        told = self.replay(folder, "--only", "Sampler,Controller*,Model,PID*,Modes").stdout
+        self.assertRegex(told, EQUAL)
+
+    def test_are_given_what_recorders_of_the_run_wrote(self):
+        folder = self.recorded()
+        shutil.copy(f"{self.in_real_time()}/janus.mcap", f"{folder}/another.mcap")
+        self.assertRegex(self.replay(folder, "--only", "PID*").stdout, EQUAL)
 
     def test_of_a_robot_of_another_process(self):
         bus = f"{self.root}/head.bus"

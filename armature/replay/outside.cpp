@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/replay/outside.hpp"
+
+#include "armature/component/interface.hpp"
+#include "armature/component/properties/property.hpp"
+
+namespace armature::replay {
+
+std::string bus_of_another_process(const component::Component& component) {
+  for (const auto* const property : component::interface_of(component).properties) {
+    if (property->type().kind != types::Kind::kText) continue;
+    std::string text = types::to_text(property->type(), property->data());
+    if (is_of_another_process(text)) return text;
+  }
+  return {};
+}
+
+}  // namespace armature::replay
