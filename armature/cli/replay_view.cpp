@@ -9,9 +9,8 @@
 namespace armature::cli {
 std::string time_in_run(base::Time time, base::Time begin) {
   const base::Duration since = time - begin;
-  return base::to_text(begin == base::Time{}
-                           ? since
-                           : std::chrono::floor<std::chrono::microseconds>(since));
+  return base::to_text(
+      begin == base::Time{} ? since : std::chrono::floor<std::chrono::microseconds>(since));
 }
 
 ReplayView::ReplayView(exec::Application& application, const ReplayArguments& arguments,
@@ -54,8 +53,8 @@ bool ReplayView::look_at_breakpoints() {
   for (replay::Breakpoint& breakpoint : breakpoints_) {
     const auto why = breakpoint.look();
     if (!why) continue;
-    console_.print("break at " + time_in_run(application_.now(), begin_) + ": " + *why + " (" + breakpoint.text() +
-                   ")\n");
+    console_.print("break at " + time_in_run(application_.now(), begin_) + ": " + *why + " (" +
+                   breakpoint.text() + ")\n");
     any = true;
   }
   return any;

@@ -16,6 +16,7 @@
 #include "armature/exec/inlets.hpp"
 #include "armature/exec/modes.hpp"
 #include "armature/replay/comparison.hpp"
+#include "armature/replay/order_in_cycle.hpp"
 #include "armature/replay/outside.hpp"
 
 namespace armature::replay {
@@ -50,7 +51,8 @@ class Isolation {
     if (!diagnostics_.ok()) return;
     tell_what_is_missing();
     if (real_time_) follow_cycles();
-    leave_out_ways_back();
+    const auto back = ways_back(plan_, [&](Index i) { return !runs(i) && !stays(at_entry(i)); });
+    std::erase_if(blueprint_.connections, [&](const auto& one) { return back.contains(&one); });
     replace_others();
     if (diagnostics_.ok()) leave_out_what_needs_others();
   }
@@ -196,8 +198,9 @@ class Isolation {
                            "have a Reporter record it (what: [" + output + "]), or let " +
                                base::quoted(name_of(connection.from)) + " run again, too");
       } else if (!channel->is_complete()) {
-        diagnostics_.error(connection.entry->where, way + "', is recorded with gaps",
-                           "record it all the time, without 'every' and 'on_change', with a larger 'buffer'");
+        diagnostics_.error(
+            connection.entry->where, way + "', is recorded with gaps",
+            "record it all the time, without 'every' and 'on_change', with a larger 'buffer'");
       } else {
         inputs_.emplace(connection.output, channel);
       }
@@ -235,7 +238,8 @@ class Isolation {
       }
       diagnostics_.warning({},
                            "nothing is recorded without gaps that the thread " +
-                               base::quoted(thread.name) + " writes in each cycle: its cycles come once a period, from the "
+                               base::quoted(thread.name) +
+                               " writes in each cycle: its cycles come once a period, from the "
                                "begin of the recordings on",
                            "have a Reporter record such an output");
     }
@@ -255,23 +259,6 @@ class Isolation {
     return most;
   }
 
-  /// Data that comes to who is recorded only tells it when in a cycle to write, and that in the
-  /// direction of the flow.
-  void leave_out_ways_back() {
-    std::vector<std::size_t> place(blueprint_.components.size());
-    for (const exec::ThreadPlan& thread : plan_.threads) {
-      for (std::size_t k = 0; k < thread.members.size(); ++k) place[thread.members[k]] = k;
-    }
-    std::set<const exec::ConnectionEntry*> back;
-    for (const exec::ConnectionPlan& connection : plan_.connections) {
-      const auto& [from, to] = std::pair(connection.from, connection.to);
-      if (runs(to) || stays(at_entry(to))) continue;
-      const bool onward = plan_.thread_of[from] == plan_.thread_of[to] && place[from] < place[to];
-      if (!onward) back.insert(connection.entry);
-    }
-    std::erase_if(blueprint_.connections, [&](const auto& one) { return back.contains(&one); });
-  }
-
   /// Threads keep what they have: who is recorded writes where its original ran.
   void replace_others() {
     exec::RecordedInstants& instants = deployment_.options.instants;
@@ -285,7 +272,7 @@ class Isolation {
         const auto input = inputs_.find(output);
         if (input == inputs_.end()) continue;
         outputs.push_back({output->name(), input->second->recording, input->second->samples,
-                           is_told_later(i) && stays_in_thread(*output)});
+                           writes_behind_cycle(plan_, i, *output)});
       }
       auto recorded = std::make_unique<RecordedComponent>(std::move(entry.component));
       for (RecordedOutput& output : outputs) {
@@ -303,28 +290,6 @@ class Isolation {
       if (replaced.contains(i)) alone_.recorded_.push_back(replaced[i]);
     }
     for (Index i = 0; i < plan_.threads.size(); ++i) seat(i, instants);
-  }
-
-  /// Who is triggered by a less urgent thread handles that behind the cycle, which began before.
-  bool is_told_later(Index index) const {
-    const auto from_less_urgent = [&](Index from, Index to) {
-      return to == index && exec::urgency(plan_.threads[plan_.thread_of[from]].activity) <
-                                exec::urgency(plan_.threads[plan_.thread_of[to]].activity);
-    };
-    return std::ranges::any_of(plan_.connections,
-                               [&](const exec::ConnectionPlan& one) {
-                                 return one.triggers && from_less_urgent(one.from, one.to);
-                               }) ||
-           std::ranges::any_of(plan_.subscriptions, [&](const exec::SubscriptionPlan& one) {
-             return from_less_urgent(one.from, one.to);
-           });
-  }
-
-  /// Other threads read in cycles of their own, behind this one.
-  bool stays_in_thread(const component::OutputPortBase& output) const {
-    return std::ranges::all_of(plan_.connections, [&](const exec::ConnectionPlan& one) {
-      return one.output != &output || plan_.thread_of[one.from] == plan_.thread_of[one.to];
-    });
   }
 
   void seat(Index thread, exec::RecordedInstants& instants) {

@@ -174,8 +174,7 @@ base::Time end_in(const nlohmann::json& one, const nlohmann::json& other) {
 }  // namespace
 
 std::vector<std::unique_ptr<record::McapRecording>> load_recordings(
-    const std::string& folder, const std::set<std::string>& names,
-    base::Diagnostics& diagnostics) {
+    const std::string& folder, const std::set<std::string>& names, base::Diagnostics& diagnostics) {
   std::vector<std::unique_ptr<record::McapRecording>> all;
   for (const fs::path& file : recordings_in(folder)) {
     if (!names.contains(file.filename().string())) continue;
