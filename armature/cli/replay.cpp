@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
@@ -197,6 +198,7 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment, const re
   report::RunFacts facts;
   facts.deployment = recorded.experiment.deployment;
   facts.simulated = true;
+  if (alone != nullptr) facts.begin = alone->begin();
   const bool other_turns = arguments.changes.any() || alone != nullptr;
   replay::Reenactment reenactment(alone == nullptr ? recorded.acts : alone->acts_for(recorded.acts),
                                   other_turns ? replay::DueBy::kTime : replay::DueBy::kTurn);
@@ -339,9 +341,14 @@ int compare(const Recorded& recorded, const Done& done, const replay::Alone* alo
 }
 
 /// What was beside what would have been, on one page.
-int show_what_if(const Recorded& recorded, const replay::Changes& changes, const Console& console) {
+/// @param alone  of components that ran again without the others; may be null
+int show_what_if(const Recorded& recorded, const replay::Changes& changes,
+                 const replay::Alone* alone, const Console& console) {
   auto done = replay::copy_run(recorded.folder, recorded.out + '/' + kWas);
-  if (done) done = replay::write_changes(recorded.out + '/' + report::kWhatIfFile, changes);
+  if (done) {
+    done = replay::write_changes(recorded.out + '/' + report::kWhatIfFile, changes,
+                                 alone == nullptr ? std::set<std::string>() : alone->names());
+  }
   if (!done) {
     console.say(LogLevel::kError, done.error());
     return kFailed;
@@ -408,7 +415,7 @@ int replay(const ReplayArguments& arguments, Console& console) {
   const Done done = do_again(recorded, deployment, those_alone, arguments, console);
   if (done.failed) return kFailed;
   if (changes.any()) warn_of_changed(done, console);
-  return changes.any() ? show_what_if(recorded, changes, console)
+  return changes.any() ? show_what_if(recorded, changes, those_alone, console)
                        : compare(recorded, done, those_alone, console);
 }
 

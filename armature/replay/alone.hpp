@@ -31,6 +31,8 @@ class Alone {
   /// Of acts those that concern components which run.
   std::vector<RecordedAct> acts_for(std::vector<RecordedAct> acts) const;
 
+  /// Of the components that run.
+  const std::set<std::string>& names() const { return names_; }
   /// Channels with what was recorded of their own doing.
   const std::set<std::string>& compared() const { return compared_; }
   /// Whether samples are missing in these.

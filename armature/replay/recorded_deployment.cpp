@@ -234,11 +234,12 @@ deploy::Deployment load_recorded(const Experiment& experiment, const Changes& ch
   return deployment;
 }
 
-base::Result<void> write_changes(const std::string& path, const Changes& changes) {
+base::Result<void> write_changes(const std::string& path, const Changes& changes,
+                                 const std::set<std::string>& only) {
   nlohmann::json all = nlohmann::json::array();
   if (!changes.file.empty()) all.push_back("with " + fs::path(changes.file).filename().string());
   for (const std::string& one : changes.overrides) all.push_back(one);
-  const nlohmann::json json{{"changes", all}};
+  const nlohmann::json json{{"changes", all}, {"only", only}};
   return platform::write_file(
       path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct Changes {
 };
 
 /// Writes what is changed as JSON, for the report's page.
-base::Result<void> write_changes(const std::string& path, const Changes& changes);
+/// @param only  components that ran again without the others; empty: all did
+base::Result<void> write_changes(const std::string& path, const Changes& changes,
+                                 const std::set<std::string>& only);
 
 /// Loads the deployment of an experiment from the texts that the run has left, with the component
 /// libraries that are there now. What differs from then, though nobody asked for it, is a warning:

@@ -74,6 +74,17 @@ bool was_simulated(const Run& run) {
   return text_in(Json::parse(run.summary, nullptr, false), "time") == "simulated";
 }
 
+/// Simulated time begins at 0, but that of a replay of a run in real time.
+/// @return when the recording's time 0 was on the clock
+double begin_at_zero_of_run(Run& run) {
+  if (!was_simulated(run)) return begin_at_zero(run.signals);
+  const Json summary = Json::parse(run.summary, nullptr, false);
+  const auto begin = summary.find("begin_s");
+  if (begin == summary.end() || !begin->is_number()) return 0.0;
+  begin_at(begin->get<double>(), run.signals);
+  return begin->get<double>();
+}
+
 /// The limits that the summary knows, as if they had been recorded; what was recorded stands.
 void add_limits(const std::string& summary, Signals& signals) {
   const auto run = nlohmann::json::parse(summary, nullptr, false);
@@ -108,7 +119,7 @@ void load_recording(const std::string& path, bool has_figures, Run& run,
             std::to_string(loaded.value().samples.size()) + " samples");
   }
   run.signals = signals_of(loaded.value());
-  const double zero_s = was_simulated(run) ? 0.0 : begin_at_zero(run.signals);
+  const double zero_s = begin_at_zero_of_run(run);
   add_limits(run.summary, run.signals);
   run.joints = joints_of(run.signals);
   run.velocities = velocities_of(run.signals, run.joints);

@@ -145,10 +145,14 @@ double begin_at_zero(Signals& signals) {
     if (!signal.time_s.empty()) begin_s = std::min(begin_s, signal.time_s.front());
   }
   if (!std::isfinite(begin_s)) return 0.0;
+  begin_at(begin_s, signals);
+  return begin_s;
+}
+
+void begin_at(double begin_s, Signals& signals) {
   for (Signal& signal : signals.all) {
     for (double& time_s : signal.time_s) time_s -= begin_s;
   }
-  return begin_s;
 }
 
 bool before_by_number(const std::string& left, const std::string& right) {

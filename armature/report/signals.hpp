@@ -46,6 +46,8 @@ Signals signals_of(const record::McapRecording& recording);
 /// A real run's times are those of the machine's clock: the first sample becomes time 0.
 /// @return when that was [s]; 0 without samples
 double begin_at_zero(Signals& signals);
+/// Times are from then on.
+void begin_at(double begin_s, Signals& signals);
 
 /// Sorts names as people count: PID2 before PID10.
 bool before_by_number(const std::string& left, const std::string& right);

@@ -119,6 +119,8 @@ TEST(Signals, OfARealRunBeginAtZero) {
   EXPECT_EQ(begin_at_zero(signals), 29000.25);
   EXPECT_THAT(signals.all[0].time_s, ElementsAre(0.25, 0.75));
   EXPECT_THAT(signals.all[1].time_s, ElementsAre(0.0));
+  begin_at(0.25, signals);
+  EXPECT_THAT(signals.all[0].time_s, ElementsAre(0.0, 0.5));
 }
 
 TEST(Signals, AreOfTheJointThatTheirComponentIsByItsName) {

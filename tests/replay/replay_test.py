@@ -516,6 +516,7 @@ class Alone(Recorded):
         what_if = load_samples(f"{folder}/what-if/what-if/janus.mcap", "PID1.Out")
         self.assertEqual(len(was), len(what_if))
         self.assertNotEqual(was, what_if)
+        self.assertEqual(load(f"{folder}/what-if/what_if.json")["only"], ["PID1", "PID2"])
 
     def test_need_what_others_wrote(self):
         told = self.replay(self.recorded(), "--only", "Sensor", code=1).stderr

@@ -36,8 +36,10 @@
   }
 
   /** What the runs of a replay with changes have to do with each other. */
-  const whatIf = ({changes}) => `What if: ${changes.join(', ')}. “was” is what was recorded. “what-if” is the same run with these changes, ` +
-    'simulated anew with its plant: what operators and scripts did is done at the same times.';
+  const whatIf = ({changes, only = []}) => `What if: ${changes.join(', ')}. “was” is what was recorded. ` + (only.length > 0
+    ? `“what-if” is what ${only.join(', ')} alone would have said with these changes to what was recorded: nothing follows it, ` +
+      'so positions and errors are what they were.'
+    : '“what-if” is the same run with these changes, simulated anew with its plant: what operators and scripts did is done at the same times.');
 
   /** Errors are shown in mrad, unless they are large. */
   const largest = Math.max(0, ...tracked.flatMap((run) => run.joints.map((joint) => joint.max_abs_error_rad)));
