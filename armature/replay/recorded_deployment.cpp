@@ -239,7 +239,8 @@ base::Result<void> write_changes(const std::string& path, const Changes& changes
   nlohmann::json all = nlohmann::json::array();
   if (!changes.file.empty()) all.push_back("with " + fs::path(changes.file).filename().string());
   for (const std::string& one : changes.overrides) all.push_back(one);
-  const nlohmann::json json{{"changes", all}, {"only", only}};
+  nlohmann::json json{{"changes", all}};
+  if (!only.empty()) json["only"] = only;
   return platform::write_file(
       path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
