@@ -80,9 +80,9 @@ base::Result<Recorded> read_recorded(const ReplayArguments& arguments) {
   auto acts = replay::load_acts(arguments.folder);
   if (!acts) return base::Error{acts.error()};
   recorded.acts = std::move(acts).value();
-  // In real time each is done when its time has come, whoever said so.
-  for (replay::RecordedAct& one : recorded.acts) {
-    if (!recorded.experiment.simulated) one.act.attended = false;
+  if (!recorded.experiment.simulated) {
+    // In real time each is done when its time has come, whoever said so.
+    for (replay::RecordedAct& one : recorded.acts) one.act.attended = false;
   }
   recorded.out = place_of(arguments);
   recorded.run = arguments.changes.any() ? recorded.out + '/' + kWhatIf : recorded.out;
@@ -125,8 +125,7 @@ void keep_files_in_place(exec::Blueprint& blueprint) {
   }
 }
 
-/// Whoever observes without recording takes part in a network, as the components of ros2 do: what
-/// came from there is in no account of acts, and the others there would take a replay for a robot.
+/// Nobody speaks to others, or is on a bus of theirs.
 bool expect_no_outside(const exec::Blueprint& blueprint, const Console& console) {
   bool inside = true;
   for (const exec::ComponentEntry& entry : blueprint.components) {
@@ -137,8 +136,7 @@ bool expect_no_outside(const exec::Blueprint& blueprint, const Console& console)
                                         "(--only)");
       inside = false;
     }
-    const bool observes = !component::interface_of(*entry.component).observers.empty();
-    if (!observes || entry.model == "Reporter") continue;
+    if (!replay::speaks_to_others(entry)) continue;
     console.say(LogLevel::kError,
                 "'" + entry.component->name() + "' (" + entry.model +
                     ") speaks to others outside of this process, which are not what they were: a "
@@ -178,10 +176,10 @@ struct Done {
 
 /// An account of acts may lead on for ever, but nothing is compared behind the last sample. What
 /// was done soon after it is done yet, so that a run that was quiet at its end ends as it did.
+/// @param last  time in the recordings
 base::Time last_of_interest(const Recorded& recorded, bool cut_off, base::Time begin,
-                            const Console& console) {
+                            base::Time last, const Console& console) {
   constexpr base::Duration kQuiet = std::chrono::minutes(1);
-  const base::Time last = replay::end_of_recordings(recorded.folder);
   if (cut_off) return last;
   const base::Time bound = base::later(std::max(last, base::Time{}), kQuiet);
   if (recorded.acts.back().act.time >= bound) {
@@ -220,7 +218,9 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment, const re
   if (!view.ok()) return {.failed = true};
   const bool cut_off = reenactment.cut_off();
   const base::Time begin = alone == nullptr ? base::Time{} : alone->begin();
-  const base::Time last = last_of_interest(recorded, cut_off, begin, console);
+  const base::Time end =
+      alone == nullptr ? replay::end_of_recordings(recorded.folder) : alone->end();
+  const base::Time last = last_of_interest(recorded, cut_off, begin, end, console);
   const base::Time asked = arguments.until ? begin + *arguments.until : base::Time::max();
   facts.end = reenactment.run(
       application, std::min(last, asked), [&] { return view.look(); }, alone);

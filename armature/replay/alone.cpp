@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -64,8 +63,6 @@ class Isolation {
   std::string name_of(Index index) const { return at(index).name(); }
   bool runs(Index index) const { return alone_.names_.contains(name_of(index)); }
 
-  static bool is_reporter(const exec::ComponentEntry& entry) { return entry.model == "Reporter"; }
-
   /// What is of the runtime, or writes down what happens, is there as it was.
   static bool stays(const exec::ComponentEntry& entry) {
     return is_reporter(entry) || entry.component->name() == exec::kModesName ||
@@ -107,7 +104,7 @@ class Isolation {
     if (dynamic_cast<const component::StandIn*>(entry.component.get()) != nullptr) {
       diagnostics_.error(entry.where, base::quoted(name_of(index)) +
                                           " lives in another process, and was not here");
-    } else if (!component::interface_of(*entry.component).observers.empty()) {
+    } else if (speaks_to_others(entry)) {
       diagnostics_.error(entry.where,
                          base::quoted(name_of(index)) +
                              " speaks to others outside of this process, which are not what they "
@@ -175,11 +172,11 @@ class Isolation {
   }
 
   /// Recorded under its own name, or under that of an input that it goes to.
-  const RecordedChannel* find(const exec::ConnectionPlan& connection) const {
+  const ChannelSamples* find(const exec::ConnectionPlan& connection) const {
     const std::string input = path_of(*connection.input);
     const std::string output = path_of(*connection.output);
     for (const std::string& name : {output, input, input + " (" + output + ")"}) {
-      if (const RecordedChannel* const found = alone_.channels_->find(name)) return found;
+      if (const ChannelSamples* const found = alone_.channels_->find(name)) return found;
     }
     return nullptr;
   }
@@ -189,7 +186,7 @@ class Isolation {
       if (!runs(connection.to) || runs(connection.from)) continue;
       given_.insert(path_of(*connection.input));
       if (stays(at_entry(connection.from)) || inputs_.contains(connection.output)) continue;
-      const RecordedChannel* const channel = find(connection);
+      const ChannelSamples* const channel = find(connection);
       const std::string output = path_of(*connection.output);
       const std::string way =
           base::quoted(output) + ", which goes to '" + path_of(*connection.input);
@@ -232,7 +229,7 @@ class Isolation {
       const exec::ThreadPlan& thread = plan_.threads[i];
       const bool runs_here = std::ranges::any_of(thread.updating, [&](Index k) { return runs(k); });
       if (thread.activity.kind != exec::Activity::Kind::kPeriodic || !runs_here) continue;
-      if (const RecordedChannel* const most = most_recorded(thread.updating)) {
+      if (const ChannelSamples* const most = most_recorded(thread.updating)) {
         cycles_[i] = most->times();
         continue;
       }
@@ -246,12 +243,12 @@ class Isolation {
   }
 
   /// Of the outputs of those that run, one without gaps.
-  const RecordedChannel* most_recorded(const std::vector<Index>& components) const {
-    const RecordedChannel* most = nullptr;
+  const ChannelSamples* most_recorded(const std::vector<Index>& components) const {
+    const ChannelSamples* most = nullptr;
     for (const Index i : components) {
       if (!runs(i)) continue;
       for (const auto* const output : component::interface_of(at(i)).outputs) {
-        const RecordedChannel* const one = alone_.channels_->find(path_of(*output));
+        const ChannelSamples* const one = alone_.channels_->find(path_of(*output));
         if (one == nullptr || one->samples.empty() || !one->is_complete()) continue;
         if (most == nullptr || most->samples.size() < one->samples.size()) most = one;
       }
@@ -271,8 +268,7 @@ class Isolation {
       for (const auto* const output : component::interface_of(*entry.component).outputs) {
         const auto input = inputs_.find(output);
         if (input == inputs_.end()) continue;
-        outputs.push_back({output->name(), input->second->recording, input->second->samples,
-                           writes_behind_cycle(plan_, i, *output)});
+        outputs.push_back({output->name(), input->second, writes_behind_cycle(plan_, i, *output)});
       }
       auto recorded = std::make_unique<RecordedComponent>(std::move(entry.component));
       for (RecordedOutput& output : outputs) {
@@ -343,7 +339,7 @@ class Isolation {
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
       if (given_.contains(name)) continue;
       alone_.compared_.insert(channel);
-      const RecordedChannel& recorded = *alone_.channels_->find(channel);
+      const ChannelSamples& recorded = *alone_.channels_->find(channel);
       if (!recorded.is_complete()) alone_.gaps_ = true;
       if (writes(name) && !recorded.samples.empty()) has_output_ = true;
     }
@@ -365,7 +361,7 @@ class Isolation {
   exec::Blueprint& blueprint_;
   const exec::Plan& plan_;
   base::Diagnostics& diagnostics_;
-  std::map<const component::OutputPortBase*, const RecordedChannel*> inputs_;  ///< by their writers
+  std::map<const component::OutputPortBase*, const ChannelSamples*> inputs_;  ///< by their writers
   std::set<std::string> given_;                      ///< names of these inputs
   std::set<std::string> outputs_;                    ///< names, of components that run
   std::map<Index, std::vector<base::Time>> cycles_;  ///< by thread

@@ -39,6 +39,8 @@ class Alone {
   bool has_gaps() const { return gaps_; }
   /// Of the run's time: in real time the first in the recordings, since nobody knows more of it.
   base::Time begin() const { return begin_; }
+  /// The last time in the recordings; the begin of time if there is none.
+  base::Time end() const { return channels_->end(); }
   /// When something recorded is to be written next.
   base::Time next() const;
   /// Has it written, by those whose thread has not done so.

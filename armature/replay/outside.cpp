@@ -6,6 +6,10 @@
 
 namespace armature::replay {
 
+bool speaks_to_others(const exec::ComponentEntry& entry) {
+  return !component::interface_of(*entry.component).observers.empty() && !is_reporter(entry);
+}
+
 std::string bus_of_another_process(const component::Component& component) {
   for (const auto* const property : component::interface_of(component).properties) {
     if (property->type().kind != types::Kind::kText) continue;

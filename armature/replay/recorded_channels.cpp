@@ -9,13 +9,13 @@
 
 namespace armature::replay {
 
-bool RecordedChannel::is_complete() const {
+bool ChannelSamples::is_complete() const {
   std::uint32_t number = 0;
   return std::ranges::all_of(samples,
                              [&](const auto* sample) { return sample->sequence == ++number; });
 }
 
-std::vector<base::Time> RecordedChannel::times() const {
+std::vector<base::Time> ChannelSamples::times() const {
   std::vector<base::Time> times;
   for (const record::RecordedSample* const sample : samples) {
     if (times.empty() || sample->time > times.back()) times.push_back(sample->time);
@@ -31,23 +31,24 @@ RecordedChannels::RecordedChannels(const std::string& folder, const std::set<std
     add(*recording);
     for (const record::RecordedSample& sample : recording->samples) {
       begin = std::min(begin, sample.time);
+      end_ = std::max(end_, sample.time);
     }
   }
   if (begin != base::Time::max()) begin_ = begin;
 }
 
 void RecordedChannels::add(const record::McapRecording& recording) {
-  std::vector<RecordedChannel> own(recording.channels.size(), {&recording});
+  std::vector<ChannelSamples> own(recording.channels.size(), {&recording});
   for (const record::RecordedSample& sample : recording.samples) {
     own[sample.channel].samples.push_back(&sample);
   }
   for (std::size_t i = 0; i < own.size(); ++i) {
-    RecordedChannel& known = channels_[recording.channels[i].name];
+    ChannelSamples& known = channels_[recording.channels[i].name];
     if (known.recording == nullptr || !known.is_complete()) known = std::move(own[i]);
   }
 }
 
-const RecordedChannel* RecordedChannels::find(const std::string& name) const {
+const ChannelSamples* RecordedChannels::find(const std::string& name) const {
   const auto found = channels_.find(name);
   return found == channels_.end() ? nullptr : &found->second;
 }

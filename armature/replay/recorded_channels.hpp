@@ -14,7 +14,7 @@
 namespace armature::replay {
 
 /// A channel with all of its samples, in the order of their times.
-struct RecordedChannel {
+struct ChannelSamples {
   const record::McapRecording* recording = nullptr;
   std::vector<const record::RecordedSample*> samples{};
 
@@ -32,18 +32,21 @@ class RecordedChannels {
                    base::Diagnostics& diagnostics);
 
   /// nullptr if there is none.
-  const RecordedChannel* find(const std::string& name) const;
+  const ChannelSamples* find(const std::string& name) const;
   /// Names of those in the file of that name.
   std::vector<std::string> in_file(const std::string& name) const;
   /// The first time in them; the begin of time if there is none.
   base::Time begin() const { return begin_; }
+  /// The last.
+  base::Time end() const { return end_; }
 
  private:
   void add(const record::McapRecording& recording);
 
   std::vector<std::unique_ptr<record::McapRecording>> recordings_;  ///< which the others point to
-  std::map<std::string, RecordedChannel> channels_;
+  std::map<std::string, ChannelSamples> channels_;
   base::Time begin_{};
+  base::Time end_ = base::Time::min();
 };
 
 }  // namespace armature::replay

@@ -29,9 +29,10 @@ base::Result<void> RecordedComponent::add(RecordedOutput output) {
   if (port == outputs_.end()) {
     return base::Error{"'" + name() + "' has no output '" + output.port + "' any more"};
   }
-  if (!output.samples.empty()) {
+  if (!output.channel->samples.empty()) {
     types::Value value((*port)->type());
-    const auto read = output.recording->read(*output.samples.front(), value.type(), value.data());
+    const auto read = output.channel->recording->read(*output.channel->samples.front(),
+                                                      value.type(), value.data());
     if (!read) return base::Error{read.error()};
   }
   playing_.push_back({port->get(), std::move(output)});
@@ -39,8 +40,9 @@ base::Result<void> RecordedComponent::add(RecordedOutput output) {
 }
 
 base::Time RecordedComponent::next_of(const Playing& one) const {
-  return one.next < one.recorded.samples.size() ? one.recorded.samples[one.next]->time
-                                                : base::Time::max();
+  return one.next < one.recorded.channel->samples.size()
+             ? one.recorded.channel->samples[one.next]->time
+             : base::Time::max();
 }
 
 base::Time RecordedComponent::next() const {
@@ -61,7 +63,7 @@ void RecordedComponent::play_those(const Chosen& chosen) {
     if (first > time()) return;
     for (Playing& each : playing_) {
       if (!chosen(each) || next_of(each) != first) continue;
-      const record::RecordedSample& sample = *each.recorded.samples[each.next++];
+      const record::RecordedSample& sample = *each.recorded.channel->samples[each.next++];
       if (state() == component::State::kRunning) write(each, sample);
     }
   }
@@ -73,7 +75,7 @@ void RecordedComponent::play() {
 
 void RecordedComponent::write(Playing& one, const record::RecordedSample& sample) {
   types::Value value(one.port->type());
-  const auto read = one.recorded.recording->read(sample, value.type(), value.data());
+  const auto read = one.recorded.channel->recording->read(sample, value.type(), value.data());
   if (!read) return fault(read.error());
   if (one.port->write_from(value.data()) == component::WriteStatus::kWrongSize) {
     fault("'" + one.port->name() + "' was recorded with another size than it has now");

@@ -8,15 +8,14 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/stand_in.hpp"
-#include "armature/record/mcap_reader.hpp"
+#include "armature/replay/recorded_channels.hpp"
 
 namespace armature::replay {
 
 /// Samples of an output of a component, as a recording has them.
 struct RecordedOutput {
   std::string port;
-  const record::McapRecording* recording = nullptr;      ///< outlives the component
-  std::vector<const record::RecordedSample*> samples{};  ///< in the order of their times
+  const ChannelSamples* channel = nullptr;  ///< outlives the component
   /// They are not written when the component's cycle comes, or something to it, but when it is told
   /// to play.
   bool when_told = false;

@@ -70,15 +70,11 @@ std::string load_json(const fs::path& path, base::Diagnostics& diagnostics) {
   return {};
 }
 
-bool was_simulated(const Run& run) {
-  return text_in(Json::parse(run.summary, nullptr, false), "time") == "simulated";
-}
-
 /// Simulated time begins at 0, but that of a replay of a run in real time.
 /// @return when the recording's time 0 was on the clock
 double begin_at_zero_of_run(Run& run) {
-  if (!was_simulated(run)) return begin_at_zero(run.signals);
   const Json summary = Json::parse(run.summary, nullptr, false);
+  if (text_in(summary, "time") != "simulated") return begin_at_zero(run.signals);
   const auto begin = summary.find("begin_s");
   if (begin == summary.end() || !begin->is_number()) return 0.0;
   begin_at(begin->get<double>(), run.signals);
