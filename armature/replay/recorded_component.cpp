@@ -69,6 +69,10 @@ void RecordedComponent::play_those(const Chosen& chosen) {
   }
 }
 
+void RecordedComponent::on_update() {
+  play_those([](const Playing& one) { return one.by_itself(); });
+}
+
 void RecordedComponent::play() {
   play_those([](const Playing& /*one*/) { return true; });
 }

@@ -53,9 +53,7 @@ class RecordedComponent final : public component::StandIn {
     bool by_itself() const { return !recorded.when_told; }
   };
 
-  void on_update() override {
-    play_those([](const Playing& one) { return one.by_itself(); });
-  }
+  void on_update() override;
   template <typename Chosen>
   void play_those(const Chosen& chosen);
   base::Time next_of(const Playing& one) const;
