@@ -220,6 +220,16 @@ function(armature_counts_allocations test)
   endif()
 endfunction()
 
+# armature_sanitized_cases(janus_deployed_switch "-SwitchTwice.*")
+#
+# The cases of a test that run under a sanitizer, as a filter of GoogleTest. Left out are long ones that
+# differ from others in values alone: what a sanitizer can see in them, it sees in the others too.
+function(armature_sanitized_cases test filter)
+  if(ARMATURE_SANITIZE)
+    set_tests_properties(${test} PROPERTIES ENVIRONMENT "GTEST_FILTER=${filter}")
+  endif()
+endfunction()
+
 # The test is neither built nor run in this build.
 function(armature_leave_out test)
   set_target_properties(${test} PROPERTIES EXCLUDE_FROM_ALL TRUE)
@@ -280,7 +290,7 @@ endfunction()
 # armature_fuzz_target(NAME fuzz_yaml SOURCES fuzz_yaml.cpp USES deploy)
 #
 # A libFuzzer target with its corpus in the folder corpus/<NAME> beside it. With ARMATURE_FUZZ the
-# test of that name fuzzes for 40 seconds from a fixed seed (a change is not refused for what another
+# test of that name fuzzes for 10 seconds from a fixed seed (a change is not refused for what another
 # seed would have found before it; scripts/fuzz takes any), and keeps what it finds in
 # build/asan/fuzz/<NAME>.found; without, it replays the corpus.
 function(armature_fuzz_target)
@@ -298,7 +308,7 @@ function(armature_fuzz_target)
     set(found ${folder}/${arg_NAME}.found)
     file(MAKE_DIRECTORY ${found})
     add_test(NAME ${arg_NAME} COMMAND ${arg_NAME} ${found} ${corpus} -artifact_prefix=${found}/
-                                      -seed=1 -max_total_time=40 -timeout=10 -print_final_stats=1)
+                                      -seed=1 -max_total_time=10 -timeout=10 -print_final_stats=1)
     set_tests_properties(${arg_NAME} PROPERTIES LABELS fuzz)
   else()
     target_sources(${arg_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/fuzz/replay.cpp)

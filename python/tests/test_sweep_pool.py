@@ -228,7 +228,8 @@ def test_ctrl_c_leaves_what_is_done(tmp_path):
 
 
 def interrupt_when(ready):
-    """Ctrl-C, as the terminal sends it to this process."""
+    """Ctrl-C, as the terminal sends it to this process; jobs in the background of a script ignore it from the start."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
     def wait_and_send():
         while not ready():

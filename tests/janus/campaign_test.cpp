@@ -2,6 +2,8 @@
 // Everything that may break, at random times of a motion, many times over, in simulated time.
 // Whatever it is: what the motors get stays within the limits, the head comes to rest within the
 // time that was promised, does not move before it is armed again, and then does what it is told.
+//
+//     JANUS_CAMPAIGN_RUNS=1000 janus_deployed_campaign    as many runs of each
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -12,6 +14,7 @@
 #include <gmock/gmock.h>
 
 #include "armature/component/interface.hpp"
+#include "tests/campaign/runs.hpp"
 #include "tests/janus/experiment.hpp"
 
 namespace armature::janus {
@@ -20,7 +23,9 @@ namespace {
 using namespace std::chrono_literals;
 using component::State;
 
-constexpr int kTimes = 40;  ///< each breaks
+int asked_or(int runs) {
+  return campaign::number_in_environment("JANUS_CAMPAIGN_RUNS").value_or(runs);
+}
 
 /// A moving head, and what is always so.
 class Head {
@@ -125,7 +130,11 @@ struct Breakage {
   std::function<void(Head&, int card)> happens;
   std::function<void(Head&)> ends;
   base::Duration off_within;  ///< 0: the motion goes on
+  int runs = 10;              ///< unless more are asked for
 };
+
+/// Each component on the way, of both cards, in both modes of the bus.
+constexpr int kEachOnTheWay = 11 * 2 * 2;
 
 /// The n-th of what is on the way from the generator to the motors.
 std::string component_on_the_way(unsigned n, int card) {
@@ -164,7 +173,7 @@ class Campaign : public ::testing::TestWithParam<Breakage> {};
 TEST_P(Campaign, AtAnyTimeItEndsAsPromised) {
   const Breakage& breakage = GetParam();
   std::mt19937 random(20261121);
-  for (int run = 0; run < kTimes; ++run) {
+  for (int run = 0; run < asked_or(breakage.runs); ++run) {
     SCOPED_TRACE("run " + std::to_string(run));
     Head head(run % 2 == 0 ? "synchronous" : "sequential");
     head.run_for(std::chrono::milliseconds(500 + random() % 5000));
@@ -218,7 +227,7 @@ double largest_acceleration(Head& head, base::Duration duration) {
 
 TEST(CampaignOfReferences, AtAnyTimeTheHeadBrakesSmoothlyAndGoesOnWithoutBeingArmedAgain) {
   std::mt19937 random(20261122);
-  for (int run = 0; run < kTimes; ++run) {
+  for (int run = 0; run < asked_or(10); ++run) {
     SCOPED_TRACE("run " + std::to_string(run));
     Head head(run % 2 == 0 ? "synchronous" : "sequential");
     // Not while the effort is still limited after arming: who has none cannot brake.
@@ -281,10 +290,10 @@ INSTANTIATE_TEST_SUITE_P(
                  [n = 0u](Head& head, int card) mutable {
                    head.throw_in(component_on_the_way(n++, card));
                  },
-                 kNothing, 300ms},
+                 kNothing, 300ms, kEachOnTheWay},
         Breakage{"ANumberIsNone",
                  [n = 0u](Head& head, int card) mutable { write_no_number(head, n++, card); },
-                 kNothing, 300ms},
+                 kNothing, 300ms, kEachOnTheWay},
         Breakage{"SamplerStops",
                  [](Head& head, int) {
                    ASSERT_TRUE(head.robot.application().stop_component("Sampler"));

@@ -201,6 +201,28 @@ TEST(RobotCheck, RefusesAModelOfARobotThatIsMountedOtherwise) {
       "");
 }
 
+/// With other components beside those of the arm.
+std::string own_with(const std::string& components) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, SERVO_LIBRARY};
+  const std::string text = "application: own\ninclude: " EXAMPLES
+                           "/07_own_robot/arm.yaml\ncomponents:\n  " +
+                           components + "\n";
+  return deploy::parse_deployment(text, "own.yaml", options).diagnostics.to_text();
+}
+
+TEST(RobotCheck, NamesTheRobotsOfWhichAJointCouldBe) {
+  EXPECT_THAT(own_with("Robot: {remove: true}"),
+              AllOf(HasSubstr("'Joint1': RobotJoint needs exactly one component of the model "
+                              "Robot, found none"),
+                    HasSubstr("let the Robot run again, too")));
+  EXPECT_THAT(own_with("Other: {model: Robot, properties: {joints: 1, inertia_min: [1], "
+                       "inertia_max: [1]}}"),
+              AllOf(HasSubstr("'Joint1': RobotJoint needs exactly one component of the model "
+                              "Robot, found Robot, Other"),
+                    HasSubstr("peers: [Robot]")));
+}
+
 TEST(RobotCheck, SaysWhatOfTheRobotIsMissing) {
   EXPECT_THAT(own({"Joint1.RobotJoint=0"}),
               HasSubstr("warning: 'Joint1': its limits and the gains"));

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
+#include "armature/base/joined.hpp"
 #include "armature/component/interface.hpp"
 
 namespace armature::controllers {
@@ -63,20 +65,36 @@ JointModel::JointModel(component::Component* owner, JointProperties& settings, J
   settings.add_follower(*this);
 }
 
-/// A peer, or else the only one that there is, if the joint says that it is of one.
-const DescribesRobot* JointModel::robot(const component::Check& check) const {
+/// Those among which the joint could be: its peer alone, if that is one.
+std::vector<const component::Component*> JointModel::robots(const component::Check& check) const {
+  const auto describes = [](const component::Component* one) {
+    return dynamic_cast<const DescribesRobot*>(one) != nullptr;
+  };
   for (const component::Component* const peer : check.peers()) {
-    if (const auto* robot = dynamic_cast<const DescribesRobot*>(peer)) return robot;
+    if (describes(peer)) return {peer};
   }
-  if (number_ == 0) return nullptr;
-  const DescribesRobot* only = nullptr;
-  for (const component::Component* const each : check.components()) {
-    const auto* const robot = dynamic_cast<const DescribesRobot*>(each);
-    if (robot == nullptr) continue;
-    if (only != nullptr) return nullptr;
-    only = robot;
+  std::vector<const component::Component*> all;
+  if (number_ != 0) std::ranges::copy_if(check.components(), std::back_inserter(all), describes);
+  return all;
+}
+
+const DescribesRobot* JointModel::robot(const component::Check& check) const {
+  const auto all = robots(check);
+  return all.size() == 1 ? dynamic_cast<const DescribesRobot*>(all.front()) : nullptr;
+}
+
+void JointModel::refuse_robots(component::Check& check) const {
+  const auto all = robots(check);
+  const std::string needed = "RobotJoint needs exactly one component of the model Robot, found ";
+  if (all.empty()) {
+    return check.error(needed + "none",
+                       "add one, or leave out RobotJoint; in a replay of some components alone, "
+                       "let the Robot run again, too");
   }
-  return only;
+  std::vector<std::string> names;
+  for (const auto* const one : all) names.push_back(one->name());
+  check.error(needed + base::joined(names),
+              "make the one that it is of a peer: peers: [" + names.front() + "]");
 }
 
 void JointModel::check(component::Check& check) const {
@@ -92,9 +110,7 @@ void JointModel::check(component::Check& check) const {
         "moves and what its drive gives are not declared",
         "add a component of the model Robot, and set RobotJoint to the number of this joint in it");
   }
-  if (model == nullptr)
-    return check.error(
-        "RobotJoint needs exactly one component of the model Robot, found none or several");
+  if (model == nullptr) return refuse_robots(check);
   auto found = find(*model);
   if (!found) return check.error(found.error());
   if (const JointHardware* const told = hardware_of(owner_, check)) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "armature/component/author.hpp"
 #include "armature/control/joint_limits.hpp"
@@ -46,7 +47,9 @@ class JointModel final : public component::Checked, public component::PropertyFo
 
   void check_ends(component::Check& check) const;
   void check_sensor(component::Check& check) const;
+  std::vector<const component::Component*> robots(const component::Check& check) const;
   const DescribesRobot* robot(const component::Check& check) const;
+  void refuse_robots(component::Check& check) const;
   base::Result<Known> find(const DescribesRobot& robot) const;
   std::string objection(const Known& known, const JointSettings& limits) const;
   static std::string objection_to_motion(const control::JointLimits& described,
