@@ -142,6 +142,10 @@ void Engine::deliver_leftovers() {
 base::Time Engine::wait() {
   const rt::PermitScope sleeping;
   const base::Time due = next_due();
+  if (sleeps_through_) {
+    platform::sleep_until(due);
+    return platform::monotonic_now();
+  }
   if (alarms_ != nullptr) alarms_->set(alarm_, due);
   if (alarms_ != nullptr || due == base::Time::max()) {
     context_.wakeup.wait();

@@ -65,6 +65,11 @@ class Engine {
   /// @thread its own, or any while it does not run
   void record_next_cycle(component::CycleRecord& record) noexcept { wanted_ = &record; }
 
+  /// Has messages wait for the next cycle, so that who sends them has nobody to wake. Of a periodic
+  /// thread, whose end waits for that, too. Before its loop begins.
+  void sleep_through() { sleeps_through_ = true; }
+  bool sleeps_through() const { return sleeps_through_; }
+
   /// Whether it sleeps until data becomes too old, beside messages.
   bool sleeps_until_ages() const { return !periodic() && !aging_.empty(); }
   /// Has somebody else wake it then. Before its loop begins.
@@ -150,6 +155,7 @@ class Engine {
   std::uint64_t busy_ = 0;    ///< ticks of the cycle whose account is open
   bool account_open_ = false;
   base::Time woken_{};  ///< what the clock said
+  bool sleeps_through_ = false;
   std::shared_ptr<rt::Alarms> alarms_;
   std::size_t alarm_ = 0;  ///< its number there
   std::shared_ptr<component::BlackBox> black_box_;

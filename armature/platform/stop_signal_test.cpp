@@ -12,6 +12,9 @@
 namespace armature::platform {
 namespace {
 
+/// Under nohup these tests would wait in vain for what it ignores.
+[[maybe_unused]] const auto kHeeded = std::signal(SIGHUP, SIG_DFL);
+
 base::Time in_an_hour() { return monotonic_now() + std::chrono::hours(1); }
 
 TEST(StopSignal, WaitsUntilTheDeadlineIfNothingComes) {

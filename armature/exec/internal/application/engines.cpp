@@ -17,6 +17,22 @@ std::uint64_t usual_measuring(const ThreadPlan& thread) {
   return static_cast<std::uint64_t>(known ? kInterval / period : 250) | 1u;
 }
 
+/// Of calls and of the end, which nobody else may wait for longer.
+constexpr base::Duration kLongestWait = std::chrono::milliseconds(100);
+
+/// Who drives is not to spend time on waking those who only look on. They run as often as all that
+/// could send them anything, so that no queue of theirs fills up.
+bool may_sleep_through(const ThreadPlan& thread, const Blueprint& blueprint, const Plan& plan) {
+  const auto is_shadow = [&](Index member) { return blueprint.components[member].shadow; };
+  const base::Duration period = thread.activity.period;
+  return thread.activity.kind == Activity::Kind::kPeriodic && period <= kLongestWait &&
+         std::ranges::all_of(thread.members, is_shadow) &&
+         std::ranges::all_of(plan.threads, [&](const ThreadPlan& other) {
+           return other.activity.kind != Activity::Kind::kPeriodic ||
+                  period <= other.activity.period;
+         });
+}
+
 std::unique_ptr<Engine> engine_of(const ThreadPlan& thread, const Blueprint& blueprint) {
   std::vector<component::Component*> members;
   std::vector<component::Component*> updating;
@@ -39,6 +55,7 @@ Engines make_engines(const Blueprint& blueprint, const Plan& plan, const EngineS
     Engine& engine = *engines.emplace_back(engine_of(thread, blueprint));
     const std::uint64_t often = settings.measure_every;
     engine.measure_every(often != 0 ? often : usual_measuring(thread));
+    if (may_sleep_through(thread, blueprint, plan)) engine.sleep_through();
     component::ExecutionContext& context = engine.context();
     context.limit_depth(thread.depth + component::kLeastDepthLimit);
     context.supervisor = settings.supervisor;
