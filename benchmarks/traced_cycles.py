@@ -67,5 +67,6 @@ def report(pairs, threads, driving):
         print(f"{of}: a cycle takes {statistics.median(bare for bare, _ in medians):.2f} us without, "
               f"{statistics.median(more for _, more in medians):.2f} us with; ratio {ratio:.3f}")
     for name in threads:
-        counts = [tuple(sum(run.counts[name][i] for run in side) for i in (0, 1)) for side in zip(*whole)]
+        told = [[run.counts[name] for run in side if name in run.counts] for side in zip(*whole)]
+        counts = [tuple(map(sum, zip(*side))) for side in told]
         print(f"{name}: skipped {counts[0][1]} of {counts[0][0]} cycles without, {counts[1][1]} of {counts[1][0]} with")
