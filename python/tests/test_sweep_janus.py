@@ -308,6 +308,6 @@ def test_tuning_compares_gains_on_heads_whose_runs_are_done(tmp_path, monkeypatc
     runs = [Run(i, {}, "done", {**good, "iae": 1.0 - 0.1 * i}, "") for i in range(5)]
     runs.append(Run(5, {}, "failed", {}, "Faulted: Joint1"))
     monkeypatch.setattr(armature, "sweep", lambda *arguments, **options: Results(runs))
-    share = tune_janus.robustness(tune_janus.PAPERS_GAINS, tmp_path, {})
+    share = tune_janus.robustness(tune_janus.DEPLOYMENTS_GAINS, tmp_path, {})
     assert share == [pytest.approx(0.9 / 1.0), pytest.approx(0.7 / 0.8)]
     assert "failed: Faulted: Joint1" in capsys.readouterr().out
