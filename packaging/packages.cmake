@@ -120,9 +120,10 @@ if(ARMATURE_HELP2MAN)
   install(FILES ${manual}/armature-guardian.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT armature)
 endif()
 
-install(FILES ${packaging}/armature@.service DESTINATION lib/systemd/system)
-install(FILES ${packaging}/completion/armature.bash DESTINATION share/bash-completion/completions RENAME armature)
-install(FILES ${packaging}/completion/_armature DESTINATION share/zsh/vendor-completions)
-install(FILES ${packaging}/completion/armature.fish DESTINATION share/fish/vendor_completions.d)
+# The service and completion are of the program: CMAKE_INSTALL_DEFAULT_COMPONENT_NAME is `dev` by now (ArmatureInstall).
+install(FILES ${packaging}/armature@.service DESTINATION lib/systemd/system COMPONENT armature)
+install(FILES ${packaging}/completion/armature.bash DESTINATION share/bash-completion/completions RENAME armature COMPONENT armature)
+install(FILES ${packaging}/completion/_armature DESTINATION share/zsh/vendor-completions COMPONENT armature)
+install(FILES ${packaging}/completion/armature.fish DESTINATION share/fish/vendor_completions.d COMPONENT armature)
 
 include(CPack)

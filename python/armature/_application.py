@@ -46,6 +46,7 @@ class Application(Face):
 
     @property
     def name(self) -> str:
+        """Of the application, as its deployment says."""
         return self._name
 
     @property

@@ -48,10 +48,12 @@ class RunningComponent:
 
     @property
     def name(self) -> str:
+        """As its deployment says."""
         return self._name
 
     @property
     def model(self) -> str:
+        """The model that it is of."""
         return self._model
 
     @property
@@ -66,10 +68,12 @@ class RunningComponent:
 
     @property
     def properties(self) -> Mapping[str, Property]:
+        """By name."""
         return {name: one for name, one in self._members.items() if isinstance(one, Property)}
 
     @property
     def ports(self) -> Mapping[str, Port]:
+        """By name: inputs and outputs."""
         return {name: one for name, one in self._members.items() if isinstance(one, Port)}
 
     @property
@@ -79,6 +83,7 @@ class RunningComponent:
 
     @property
     def events(self) -> Mapping[str, Event]:
+        """By name."""
         return {name: one for name, one in self._members.items() if isinstance(one, Event)}
 
     def start(self) -> None:

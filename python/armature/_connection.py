@@ -33,6 +33,7 @@ class Connection(Face):
 
     @property
     def address(self) -> str:
+        """As it was given to `connect`."""
         return self._address
 
     @property
@@ -52,6 +53,7 @@ class Connection(Face):
 
     @property
     def simulated(self) -> bool:
+        """Whether its time is simulated."""
         return self._ask().status()[2]
 
     @property

@@ -34,6 +34,7 @@ class Deployment:
 
     @property
     def file(self) -> str:
+        """As it was given to `load`."""
         return self._file
 
     @property

@@ -61,6 +61,7 @@ class Command:
 
     @property
     def name(self) -> str:
+        """Of the command, as `Generator.moveTo`."""
         return self._name
 
     @property
@@ -70,6 +71,7 @@ class Command:
 
     @property
     def succeeded(self) -> bool:
+        """Whether it has ended, and as it was to."""
         return self._handle.succeeded
 
     @property
@@ -176,6 +178,7 @@ class Property(_Member):
 
     @property
     def changeable_while_running(self) -> bool:
+        """Whether it may be set while its component runs."""
         return self._about.changeable_while_running
 
 
@@ -221,10 +224,12 @@ class Operation:
 
     @property
     def name(self) -> str:
+        """With its component, as `Arming.arm`."""
         return f"{self._component}.{self._about.name}"
 
     @property
     def doc(self) -> str:
+        """What it does."""
         return self._about.doc
 
     @property
@@ -234,6 +239,7 @@ class Operation:
 
     @property
     def is_command(self) -> bool:
+        """Whether it takes its time, and can be cancelled."""
         return self._about.command
 
     def __call__(self, *arguments: object) -> Any:
@@ -266,14 +272,17 @@ class Event:
 
     @property
     def name(self) -> str:
+        """With its component, as `Arming.Stop`."""
         return f"{self._component}.{self._about.name}"
 
     @property
     def doc(self) -> str:
+        """What it tells."""
         return self._about.doc
 
     @property
     def signature(self) -> str:
+        """What it carries, as its interface says it."""
         return self._about.signature
 
     @property

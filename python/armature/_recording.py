@@ -55,6 +55,7 @@ class Recording(Mapping[str, Samples]):
 
     @property
     def file(self) -> str:
+        """The MCAP file that was read."""
         return self._file
 
     @property

@@ -26,8 +26,8 @@ ROOT = Path(__file__).resolve().parents[2]
 DEPLOYMENT = ROOT / "robots/janus/deployments/pid.yaml"
 URDF = ROOT / "robots/janus/janus.urdf"
 
-#: Of robots/janus/deployments: with them the head is below the figures of the papers.
-PAPERS_GAINS = {"Kp": 400.0, "Ki": 20.0, "Kd": 200.0}
+#: Of robots/janus/deployments: with them the head is below the figures of the papers, which print no gains.
+DEPLOYMENTS_GAINS = {"Kp": 400.0, "Ki": 20.0, "Kd": 200.0}
 #: Where gains are looked for, by their logarithm.
 RANGES = {"Kp": (50.0, 800.0), "Ki": (5.0, 200.0), "Kd": (20.0, 400.0)}
 
@@ -113,22 +113,22 @@ def robustness(tuned, out, where):
     points = [
         {**of_both(gains), "Cards.robot_description": head(factor, out)}
         for factor in (1.0, 0.8, 1.2)
-        for gains in (PAPERS_GAINS, tuned)
+        for gains in (DEPLOYMENTS_GAINS, tuned)
     ]
     results = armature.sweep(DEPLOYMENT, points, experiment, out=out, **where)
-    print(f"\n{'head':>6}  {'gains':>8}  {'IAE 1':>9}  {'IAE 2':>9}  {'both':>9}  {'largest':>9}")
+    print(f"\n{'head':>6}  {'gains':>10}  {'IAE 1':>9}  {'IAE 2':>9}  {'both':>9}  {'largest':>9}")
     share = {}
     for i, factor in enumerate((1.0, 0.8, 1.2)):
-        for name, run in zip(("papers", "tuned"), results[2 * i : 2 * i + 2]):
+        for name, run in zip(("deployment", "tuned"), results[2 * i : 2 * i + 2]):
             m = run.metrics
-            print(f"{factor:6.1f}  {name:>8}  " + (
+            print(f"{factor:6.1f}  {name:>10}  " + (
                 f"{m['iae_1']:9.5f}  {m['iae_2']:9.5f}  {m['iae']:9.5f}  {m['largest']:9.5f}"
                 if run.done else f"{run.outcome}: {run.reason}"))  # fmt: skip
-        papers, best = results[2 * i : 2 * i + 2]
-        if papers.done and best.done:
-            share[factor] = best.metrics["iae"] / papers.metrics["iae"]
+        deployment, best = results[2 * i : 2 * i + 2]
+        if deployment.done and best.done:
+            share[factor] = best.metrics["iae"] / deployment.metrics["iae"]
     for factor, each in share.items():
-        print(f"head {factor}: the IAE is {100 * (1 - each):.0f} % below that of the papers' gains")
+        print(f"head {factor}: the IAE is {100 * (1 - each):.0f} % below that of the deployment's gains")
     return list(share.values())
 
 

@@ -112,7 +112,7 @@ void bind_log(py::module_& module) {
           "level", [](const LogLine& self) { return std::string(rt::name_of(self.level)); },
           "`debug`, `info`, `warning` or `error`")
       .def_readonly("component", &LogLine::component, "or thread, or `application`")
-      .def_property_readonly("text", text_of<LogLine>(&LogLine::text))
+      .def_property_readonly("text", text_of<LogLine>(&LogLine::text), "what was said")
       .def("__str__",
            [](const LogLine& self) {
              return text_to_python(base::to_text(self.time.time_since_epoch()) + " " +

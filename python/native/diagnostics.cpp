@@ -25,12 +25,13 @@ void bind_diagnostics(pybind11::module_& module) {
   pybind11::class_<Diagnostic>(
       module, "Diagnostic", "One finding: where, what is wrong, what was expected, how to mend it.")
       .def_property_readonly("severity", &severity_of, "`error`, `warning` or `note`")
-      .def_property_readonly("message", text_of<Diagnostic>(&Diagnostic::message))
+      .def_property_readonly("message", text_of<Diagnostic>(&Diagnostic::message), "what is wrong")
       .def_property_readonly("hint", text_of<Diagnostic>(&Diagnostic::hint),
                              "how to mend it; may be empty")
       .def_readonly("name", &Diagnostic::name, "of a warning that may be accepted; else empty")
-      .def_property_readonly("file",
-                             [](const Diagnostic& self) { return text_to_python(self.where.file); })
+      .def_property_readonly(
+          "file", [](const Diagnostic& self) { return text_to_python(self.where.file); },
+          "of the deployment, or one that it includes")
       .def_property_readonly(
           "line", [](const Diagnostic& self) { return self.where.line; },
           "counted from 1; 0: unknown")

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Applications in simulated time: how it passes, who may drive it, how it ends."""
 import _thread
+import ctypes
 import subprocess
 import sys
 import threading
+import time
 import weakref
 
 import pytest
@@ -64,27 +66,45 @@ def test_two_runs_are_equal_to_the_bit(janus_file):
     assert positions() == positions()
 
 
-def test_other_threads_of_python_run_while_time_is_simulated(janus):
-    count = 0
+def progress_of_another_thread(call):
+    """How far another thread counts between the begin and the end of `call`.
+
+    The interpreter asks nobody for its lock meanwhile: only a call that lets go of it lets the other one run."""
+    counts = {"of": 0}
+    running = threading.Event()
     ended = threading.Event()
 
     def run():
-        nonlocal count
+        running.set()
         while not ended.is_set():
-            count += 1
+            counts["of"] += 1
+            time.sleep(0)  # lets go of the lock, for whoever waits for it
 
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1000)
     other = threading.Thread(target=run)
     other.start()
-    progress = 0
-    for _ in range(20):
-        before = count
-        janus.run_for("5 s")
-        progress += count - before
-        if progress > 1000:
-            break
-    ended.set()
-    other.join()
-    assert progress > 1000
+    try:
+        running.wait()
+        before = counts["of"]
+        call()
+        return counts["of"] - before
+    finally:
+        ended.set()
+        other.join()
+        sys.setswitchinterval(interval)
+
+
+def test_other_threads_of_python_run_while_time_is_simulated(janus):
+    assert progress_of_another_thread(lambda: janus.run_for("20 s")) > 100
+
+
+def test_other_threads_would_stand_still_during_a_call_that_holds_the_lock():
+    """What the test above relies on."""
+    holds_it = ctypes.PyDLL(None).usleep
+    lets_go_of_it = ctypes.CDLL(None).usleep
+    assert progress_of_another_thread(lambda: holds_it(100_000)) == 0
+    assert progress_of_another_thread(lambda: lets_go_of_it(100_000)) > 100
 
 
 def test_ctrl_c_ends_a_run_and_the_application_can_go_on(janus, ctrl_c):

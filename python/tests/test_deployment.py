@@ -30,6 +30,7 @@ def test_check_finds_nothing_in_a_good_deployment(janus_file):
 def test_check_tells_each_mistake_with_its_place_and_a_hint(mistaken):
     found = {one.line: one for one in armature.check(mistaken)}
     unknown = found[5]
+    assert isinstance(unknown, armature.Diagnostic)
     assert (unknown.severity, unknown.file, unknown.column > 0) == ("error", str(mistaken), True)
     assert "Addr" in unknown.message and "Adder" in str(unknown)
     assert unknown.name == "" and "Adder" in unknown.hint + unknown.message

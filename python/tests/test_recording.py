@@ -21,6 +21,7 @@ def folder(tmp_path_factory, janus_file):
 
 def test_without_a_reporter_all_outputs_are_recorded(folder):
     recording = armature.read_recording(folder)
+    assert isinstance(recording, armature.Recording)
     assert recording.complete and recording.file == str(folder / "run.mcap")
     assert {"PID1.Out", "Sensor.sensor", "Joint1.VoltageActuator"} <= set(recording)
     assert repr(recording) == f"<Recording {folder}/run.mcap: {len(recording)} channels>"

@@ -15,7 +15,7 @@ from sweep_checks import bits
 
 import armature
 from armature import author
-from armature.sweeps import Following, JournalError, Pool, Results, Run
+from armature.sweeps import Following, JournalError, Results, Run
 from armature.sweeps.experiment import Simulated
 from armature.sweeps.run import Task, run_task
 
@@ -25,12 +25,14 @@ JANUS = Path(__file__).resolve().parents[2] / "robots/janus"
 PID = JANUS / "deployments/pid.yaml"
 
 
-def short_motion(app):
+def short_motion(app, in_the_middle=lambda: None):
     """A second of motion: enough that gains, and every bit of them, tell."""
     app.run_for("100 ms")
     app.Arming.arm()
     following = Following(app, [("PID1.Ref", "PID1.Sen"), ("PID2.Ref", "PID2.Sen")], period=0.01)
     app.Generator.moveTo.begin([0.3, 0.3], 1.0)
+    following.run_until(0.5)
+    in_the_middle()
     following.run_until(1.0)
     return {"iae": sum(joint.iae for joint in following.joints), "end": app.Joint1.Position.value}
 
@@ -62,16 +64,20 @@ def test_results_are_the_same_to_the_bit_on_2_and_4_workers(by_one_worker):
         assert bits(sweep(GAINS, workers=workers)) == bits(by_one_worker)
 
 
-def test_results_are_the_same_to_the_bit_on_a_cluster(by_one_worker, monkeypatch):
+def test_results_are_the_same_to_the_bit_on_a_cluster_of_1_2_and_4_workers(by_one_worker, monkeypatch):
     distributed = pytest.importorskip("distributed")
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None
     ) as cluster:
         with distributed.Client(cluster) as client:
-            results = sweep(GAINS, client=client)
-    assert len({run.worker for run in results}) == 2
-    assert bits(results) == bits(by_one_worker)
+            for workers in (1, 2, 4):
+                cluster.scale(workers)
+                client.wait_for_workers(workers)
+                results = sweep(GAINS, client=client)
+                assert results.effort.workers == workers
+                assert workers == 1 or len({run.worker for run in results}) > 1
+                assert bits(results) == bits(by_one_worker)
 
 
 def test_results_are_the_same_to_the_bit_in_another_order(by_one_worker):
@@ -79,16 +85,28 @@ def test_results_are_the_same_to_the_bit_in_another_order(by_one_worker):
     assert [run.metrics for run in reversed(backwards)] == [run.metrics for run in by_one_worker]
 
 
-def test_a_worker_killed_in_the_middle_changes_no_result(by_one_worker):
-    with Pool(2) as pool:
-        threading.Thread(target=kill_soon, args=(pool.processes[0],)).start()
-        results = sweep(GAINS, workers=pool)
+def test_a_worker_killed_in_the_middle_changes_no_result(by_one_worker, tmp_path):
+    mark = tmp_path / "under way"
+
+    def wait_to_be_killed():
+        try:
+            mark.open("x").close()
+        except FileExistsError:
+            return  # another run was, or this one in its first attempt
+        (tmp_path / "by").write_text(str(os.getpid()))
+        (tmp_path / "by").rename(tmp_path / "process")
+        time.sleep(60)
+
+    threading.Thread(target=kill_once_it_is_there, args=(tmp_path / "process",), daemon=True).start()
+    results = sweep(GAINS, lambda app: short_motion(app, wait_to_be_killed), workers=2)
+    assert sorted(run.attempts for run in results) == [1, 1, 1, 1, 1, 2]
     assert bits(results) == bits(by_one_worker)
 
 
-def kill_soon(process):
-    time.sleep(0.6)
-    os.kill(process, signal.SIGKILL)
+def kill_once_it_is_there(process):
+    while not process.exists():
+        time.sleep(0.01)
+    os.kill(int(process.read_text()), signal.SIGKILL)
 
 
 def test_what_does_not_load_and_what_cannot_be_armed_are_rows_with_their_reasons(tmp_path):
@@ -290,6 +308,6 @@ def test_tuning_compares_gains_on_heads_whose_runs_are_done(tmp_path, monkeypatc
     runs = [Run(i, {}, "done", {**good, "iae": 1.0 - 0.1 * i}, "") for i in range(5)]
     runs.append(Run(5, {}, "failed", {}, "Faulted: Joint1"))
     monkeypatch.setattr(armature, "sweep", lambda *arguments, **options: Results(runs))
-    share = tune_janus.robustness(tune_janus.PAPERS_GAINS, tmp_path, {})
+    share = tune_janus.robustness(tune_janus.DEPLOYMENTS_GAINS, tmp_path, {})
     assert share == [pytest.approx(0.9 / 1.0), pytest.approx(0.7 / 0.8)]
     assert "failed: Faulted: Joint1" in capsys.readouterr().out

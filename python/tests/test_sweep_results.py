@@ -8,7 +8,7 @@ import struct
 import numpy
 import pytest
 
-from armature.sweeps import Effort, JournalError, Results, Run
+from armature.sweeps import DONE, FAILED, LOST, REFUSED, Effort, JournalError, Results, Run
 from armature.sweeps.journal import Journal
 from armature.sweeps.progress import Progress
 from armature.sweeps.results import text_of
@@ -81,7 +81,13 @@ def test_what_a_point_does_not_name_is_nan_or_empty_in_the_array():
 def test_the_table_names_the_best_first_and_counts_all():
     lines = some_results().table().splitlines()
     assert lines[1].split() == ["2", "0.333333", "sequential", "0.25", "-0.25"]
-    assert lines[-1] == "3 runs: 2 done, 1 refused"
+    assert lines[-1] == some_results().summary() == "3 runs: 2 done, 1 refused"
+
+
+def test_outcomes_have_names():
+    outcomes = [DONE, REFUSED, FAILED, LOST]
+    assert outcomes == ["done", "refused", "failed", "lost"]
+    assert [run(0, outcome).done for outcome in outcomes] == [True, False, False, False]
 
 
 def test_overhead_is_what_workers_did_beside_runs():

@@ -9,7 +9,10 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
+
+from shells import completed
 
 ARMATURE = pathlib.Path(sys.argv[1])
 SOURCE = pathlib.Path(sys.argv[2])
@@ -22,20 +25,6 @@ ENVIRONMENT = dict(os.environ, PATH=f"{ARMATURE.parent}:{os.environ['PATH']}")
 def complete(*words):
     done = subprocess.run([ARMATURE, "complete", "--", *words], capture_output=True, text=True, check=True)
     return done.stdout.split()
-
-
-def in_bash(*words):
-    """What bash would show for `armature WORDS`."""
-    script = f"""
-        source {SCRIPTS}/armature.bash
-        compopt() {{ echo "option $2"; }}
-        COMP_WORDS=(armature "$@")
-        COMP_CWORD=$#
-        _armature
-        printf '%s\\n' "${{COMPREPLY[@]}}"
-    """
-    done = subprocess.run(["bash", "-c", script, "bash", *words], capture_output=True, text=True, check=True, env=ENVIRONMENT)
-    return done.stdout.split("\n")[:-1]
 
 
 class Completion(unittest.TestCase):
@@ -66,20 +55,31 @@ class Completion(unittest.TestCase):
         self.assertEqual(complete("run", "examples/"), [])
         self.assertEqual(complete("run", "no_such_file.yaml", "--set", ""), [])
 
-    def test_bash_goes_on_after_a_component_and_looks_for_files_itself(self):
-        self.assertEqual(in_bash("stu"), ["studio"])
-        self.assertEqual(in_bash("run", FILE, "--set", "Joint3"), ["option nospace", "Joint3."])
-        self.assertEqual(in_bash("run", "exam"), ["option default", ""])
+
+class AtATerminal(unittest.TestCase):
+    def completes(self, shell, preparation):
+        """A command, a component, a property, a whole name, a folder."""
+        lines = {
+            "armature stu": "armature studio ",
+            f"armature run {FILE} --set Joint3": f"armature run {FILE} --set Joint3.",
+            f"armature run {FILE} --set Joint3.GearR": f"armature run {FILE} --set Joint3.GearRatio=",
+            f"armature run {FILE} --only Sampl": f"armature run {FILE} --only Sampler ",
+            f"armature run {SOURCE}/exampl": f"armature run {SOURCE}/examples/",
+        }
+        with tempfile.TemporaryDirectory() as home:
+            found = completed(shell, preparation, lines, environment={**ENVIRONMENT, "HOME": home})
+        self.assertEqual(found, list(lines.values()))
+
+    def test_bash_completes(self):
+        self.completes("bash", f"source {SCRIPTS}/armature.bash")
 
     @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
-    def test_zsh_reads_its_script(self):
-        subprocess.run(["zsh", "-n", SCRIPTS / "_armature"], check=True)
+    def test_zsh_completes(self):
+        self.completes("zsh", f"fpath=({SCRIPTS} $fpath); autoload -Uz compinit; compinit -u -D")
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
     def test_fish_completes(self):
-        line = f"source {SCRIPTS}/armature.fish; complete -C 'armature run {FILE} --set Joint3'"
-        done = subprocess.run(["fish", "-c", line], capture_output=True, text=True, check=True, env=ENVIRONMENT)
-        self.assertEqual(done.stdout.split(), ["Joint3."])
+        self.completes("fish", f"source {SCRIPTS}/armature.fish")
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A run as a service of systemd: what it tells its manager, and how it ends.
 
-usage: service_test.py ARMATURE EXAMPLES
+usage: service_test.py ARMATURE DEPLOYMENT
 """
 import os
 import signal
@@ -13,8 +13,7 @@ import tempfile
 import time
 import unittest
 
-ARMATURE, EXAMPLES = sys.argv[1:3]
-FILE = os.path.join(EXAMPLES, "01_hello/hello.yaml")
+ARMATURE, FILE = sys.argv[1:3]
 
 
 class Manager:

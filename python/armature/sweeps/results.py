@@ -62,10 +62,12 @@ class Results(Sequence[Run]):
 
     @property
     def parameters(self) -> list[str]:
+        """Names of what the points set."""
         return _names(run.point for run in self._runs)
 
     @property
     def metrics(self) -> list[str]:
+        """Names of what the runs gave."""
         return _names(run.metrics for run in self._runs)
 
     @property

@@ -58,6 +58,7 @@ class Run:
 
     @property
     def done(self) -> bool:
+        """Whether it has its metrics."""
         return self.outcome == DONE
 
 
