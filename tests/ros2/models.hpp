@@ -122,6 +122,34 @@ class Base final : public component::Component {
   component::Command<> drive_{this, "drive", component::serve<&Base::drive>, "drives"};
 };
 
+/// Stands for a generator of two joints that plays paths.
+class Player final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  using Vector = std::vector<double>;
+
+  component::Outcome on_configure() override {
+    desired_.set_sample(present_);
+    return component::accepted();
+  }
+  void on_update() override { desired_.write(present_); }
+  component::Outcome play(const Vector& /*path*/, double /*speed*/) {
+    return component::accepted();
+  }
+  void brake() {}
+
+  const Vector present_{0.0, 0.0};
+  component::Property<Vector> lower_{this, "lower", {-1.0}, "of each joint", "rad"};
+  component::Property<Vector> upper_{this, "upper", {1.0}, "of each joint", "rad"};
+  component::OutputPort<Vector> desired_{this, "nAxesDesiredPosition", "of two joints", "rad"};
+  component::Command<const Vector&, double> play_{this, "playPath", component::serve<&Player::play>,
+                                                  "plays a path"};
+  component::EventHandler<> stop_{this, "Stop", component::serve<&Player::brake>, "brakes",
+                                  component::optional};
+};
+
 /// Stands for a joint: the operator alone has it home.
 class Axis final : public component::Component {
  public:

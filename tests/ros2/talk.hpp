@@ -34,6 +34,7 @@ inline deploy::Deployment deployment(const std::string& components,
     registry.add<Relay>("Relay", "passes on");
     registry.add<Base>("Base", "drives");
     registry.add<Axis>("Axis", "homes");
+    registry.add<Player>("Player", "plays paths");
     registry.add<Ticker>("Ticker", "counts");
     registry.add<Listener>("Listener", "listens");
   };
