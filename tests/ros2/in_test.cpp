@@ -136,6 +136,8 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
       *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
   std_msgs::msg::dds_::Float64MultiArray_ array;
   array.data({-1.0, 2.0});
+  array.layout().dim().resize(1);  // which is for people
+  array.layout().dim()[0].label("joints");
   talk.send(arrays, array, "Numbers");
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
   for (const std::vector<double>& each :
@@ -145,6 +147,11 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
     talk.send(arrays, array, "Numbers");
     EXPECT_GT(talk.count("Numbers", "Refused"), refused);
   }
+  array.data({0.0, 0.0});
+  array.layout().data_offset(1);
+  const std::uint64_t refused = talk.count("Numbers", "Refused");
+  talk.send(arrays, array, "Numbers");
+  EXPECT_GT(talk.count("Numbers", "Refused"), refused);
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
 }
 

@@ -27,6 +27,7 @@ class Numbers final : public component::Component {
     hike_.set_sample(hike);
     position_.set_sample({0.0, 0.0});
     velocity_.set_sample({0.0, 0.0});
+    effort_.set_sample({0.0, 0.0});
     image_.set_sample(std::vector<std::uint8_t>(2 * 2 * 3));
     return component::accepted();
   }
@@ -37,6 +38,7 @@ class Numbers final : public component::Component {
 
   component::OutputPort<std::vector<double>> position_{this, "Position", "of two joints", "rad"};
   component::OutputPort<std::vector<double>> velocity_{this, "Velocity", "of two joints", "rad/s"};
+  component::OutputPort<std::vector<double>> effort_{this, "Effort", "of two joints", "Nm"};
   component::OutputPort<controllers::Pose> pose_{this, "Pose", "of a tool"};
   component::OutputPort<double> x_{this, "X", "of a chassis", "m"};
   component::OutputPort<double> heading_{this, "Heading", "of a chassis", "rad"};

@@ -15,18 +15,19 @@ namespace armature::ros2 {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 TEST(Out, JointStatesHaveNamesPositionsAndTheVelocitiesOfTheSameCycle) {
   Talk talk(deployment(std::string(kNumbers) + "ros: JointStates:\n    model: JointStates\n    "
                                                "properties: {joints: 2, joint_names: [pan, "
                                                "tilt], frame_id: base}\n",
                        "  - Numbers.Position -> JointStates.Position\n  - Numbers.Velocity -> "
-                       "JointStates.Velocity\n"));
+                       "JointStates.Velocity\n  - Numbers.Effort -> JointStates.Effort\n"));
   auto* const reader =
       talk.peer.read_from<sensor_msgs::msg::dds_::JointState_PubSubType>("rt/joint_states");
   sensor_msgs::msg::dds_::JointState_ message;
+  const base::Time begin = talk.last_cycle();
   ASSERT_TRUE(talk.until([&] {
+    talk.robot.write("Numbers", "Effort", std::vector<double>{3.5, -4.5});
     talk.robot.write("Numbers", "Velocity", std::vector<double>{0.25, -0.5});
     talk.robot.write("Numbers", "Position", std::vector<double>{1.5, -2.5});
     return take(*reader, message);
@@ -34,7 +35,8 @@ TEST(Out, JointStatesHaveNamesPositionsAndTheVelocitiesOfTheSameCycle) {
   EXPECT_THAT(message.name(), ElementsAre("pan", "tilt"));
   EXPECT_THAT(message.position(), ElementsAre(1.5, -2.5));
   EXPECT_THAT(message.velocity(), ElementsAre(0.25, -0.5));
-  EXPECT_THAT(message.effort(), IsEmpty());
+  EXPECT_THAT(message.effort(), ElementsAre(3.5, -4.5));
+  talk.expect_stamped_since(begin, message.header());
   EXPECT_EQ(message.header().frame_id(), "base");
 }
 
@@ -70,6 +72,7 @@ TEST(Out, TransformsAreOfPosesAndOfPlacesInThePlane) {
   auto* const tool = talk.peer.read_from<tf2_msgs::msg::dds_::TFMessage_PubSubType>("rt/tool");
   auto* const odometry = talk.peer.read_from<tf2_msgs::msg::dds_::TFMessage_PubSubType>("rt/tf");
   tf2_msgs::msg::dds_::TFMessage_ of_tool;
+  const base::Time begin = talk.last_cycle();
   ASSERT_TRUE(talk.until([&] {
     talk.robot.write("Numbers", "Pose", controllers::Pose{{1.0, 2.0, 3.0}, {0.1, 0.2, 0.3, 0.4}});
     return take(*tool, of_tool);
@@ -77,6 +80,7 @@ TEST(Out, TransformsAreOfPosesAndOfPlacesInThePlane) {
   ASSERT_EQ(of_tool.transforms().size(), 1u);
   const auto& transform = of_tool.transforms()[0];
   EXPECT_EQ(transform.header().frame_id(), "base");
+  talk.expect_stamped_since(begin, transform.header());
   EXPECT_EQ(transform.child_frame_id(), "tool");
   EXPECT_EQ(transform.transform().translation().z(), 3.0);
   EXPECT_EQ(transform.transform().rotation().x(), 0.1);
@@ -103,7 +107,9 @@ TEST(Out, DiagnosticsTellWhoIsOutOfServiceAndWhy) {
   auto* const reader =
       talk.peer.read_from<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>("rt/diagnostics");
   diagnostic_msgs::msg::dds_::DiagnosticArray_ message;
+  const base::Time begin = talk.last_cycle();
   ASSERT_TRUE(talk.until([&] { return take(*reader, message); }));
+  talk.expect_stamped_since(begin, message.header());
   std::vector<std::string> told;
   for (const auto& status : message.status()) {
     told.push_back(status.name() + " " + std::to_string(status.level()) + " " + status.message() +
@@ -124,12 +130,14 @@ TEST(Out, ImagesArePng) {
       "rt/image/compressed");
   const std::vector<std::uint8_t> pixels{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   sensor_msgs::msg::dds_::CompressedImage_ message;
+  const base::Time begin = talk.last_cycle();
   ASSERT_TRUE(talk.until([&] {
     talk.robot.write("Numbers", "Image", pixels);
     return take(*reader, message);
   }));
   EXPECT_EQ(message.format(), "png");
   EXPECT_EQ(message.header().frame_id(), "camera");
+  talk.expect_stamped_since(begin, message.header());
   EXPECT_EQ(std::string(message.data().begin(), message.data().end()),
             vision::png_of({pixels.data(), {2, 2}}));
 }

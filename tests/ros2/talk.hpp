@@ -89,6 +89,16 @@ class Talk {
     });
   }
 
+  /// @param header  is stamped between `begin` and now, in simulated time
+  void expect_stamped_since(base::Time begin, const std_msgs::msg::dds_::Header_& header) {
+    const base::Time stamp(std::chrono::seconds(header.stamp().sec()) +
+                           std::chrono::nanoseconds(header.stamp().nanosec()));
+    EXPECT_GE(stamp, begin);
+    EXPECT_LE(stamp, robot.application().now());
+  }
+  /// What is written from now on has no stamp before that.
+  base::Time last_cycle() { return robot.application().now() - 2ms; }
+
   FastPeer peer{kDomain};
   testing::DeployedRobot robot;
 };
