@@ -120,17 +120,24 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.5, -1.0));
   EXPECT_THAT(talk.robot.value<std::vector<int>>("Joy", "Buttons"), ElementsAre(1));
   std::vector<sensor_msgs::msg::dds_::Joy_> wrong(4, joy);
-  wrong[0].axes({0.1f});
-  wrong[1].buttons({0, 0});
-  wrong[2].axes({0.1f, 1.5f});
-  wrong[3].axes({0.1f, 0.1f});
-  wrong[3].header().stamp().sec(4);
+  wrong[0].axes({0.1f, 0.1f});
+  wrong[0].header().stamp().sec(4);  // within max_silence
+  wrong[1].axes({0.1f});
+  wrong[2].buttons({0, 0});
+  wrong[3].axes({0.1f, 1.5f});
   for (const auto& each : wrong) {
     const std::uint64_t refused = talk.count("Joy", "Refused");
     talk.send(joys, each, "Joy");
     EXPECT_GT(talk.count("Joy", "Refused"), refused);
   }
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.5, -1.0));
+  // Behind a silence another one may send, whose clock has another time.
+  talk.robot.run_for(600ms);
+  auto& other = *talk.peer.write_to<sensor_msgs::msg::dds_::Joy_PubSubType>("rt/joy");
+  joy.header().stamp().sec(3);
+  joy.axes({0.25f, 0.5f});
+  talk.send(other, joy, "Joy");
+  EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.25, 0.5));
 
   auto& arrays =
       *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
