@@ -96,6 +96,16 @@ TEST(Out, TransformsAreOfPosesAndOfPlacesInThePlane) {
   EXPECT_EQ(of_chassis.transforms()[0].transform().translation().x(), 0.5);
   EXPECT_DOUBLE_EQ(of_chassis.transforms()[0].transform().rotation().z(), std::sin(0.5));
   EXPECT_DOUBLE_EQ(of_chassis.transforms()[0].transform().rotation().w(), std::cos(0.5));
+  // X and Heading of different cycles are no place; those of one are sent once.
+  talk.robot.run_for(20ms);
+  const std::uint64_t published = talk.count("Odometry", "Published");
+  talk.robot.write("Numbers", "X", 0.75);
+  talk.robot.run_for(20ms);
+  EXPECT_EQ(talk.count("Odometry", "Published"), published);
+  talk.robot.write("Numbers", "X", 1.5);
+  talk.robot.write("Numbers", "Heading", 2.0);
+  talk.robot.run_for(20ms);
+  EXPECT_EQ(talk.count("Odometry", "Published"), published + 1);
 }
 
 TEST(Out, DiagnosticsTellWhoIsOutOfServiceAndWhy) {

@@ -180,6 +180,16 @@ TEST(Checked, AnApplicationIsOneNode) {
               HasSubstr("is a RosNode, too, and an application is one node"));
 }
 
+TEST(Checked, APlaceIsOfOneComponent) {
+  const auto of_two = deployment(std::string(kNumbers) +
+                                     "Others: {model: Numbers, activity: {periodic: 2 ms}}\n"
+                                     "ros: Odometry:\n    model: Tf\n    properties: {frame_id: "
+                                     "odom, child_frame_id: base_link}\n",
+                                 "  - Numbers.X -> Odometry.X\n  - Others.X -> Odometry.Y\n");
+  EXPECT_THAT(of_two.diagnostics.to_text(),
+              HasSubstr("X, Y and Heading come from different components"));
+}
+
 TEST(Checked, NamesOfJointsAreHeldAgainstTheirNumber) {
   const auto wrong = deployment(std::string(kNumbers) +
                                     "ros: JointStates:\n    model: JointStates\n    properties: "
