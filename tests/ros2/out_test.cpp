@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the components of the library ros2 write, as Fast DDS reads it.
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "armature/vision/png.hpp"
 #include "talk.hpp"
@@ -15,6 +17,7 @@ namespace armature::ros2 {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 TEST(Out, JointStatesHaveNamesPositionsAndTheVelocitiesOfTheSameCycle) {
   Talk talk(deployment(std::string(kNumbers) + "ros: JointStates:\n    model: JointStates\n    "
@@ -59,6 +62,27 @@ TEST(Out, ADescriptionIsThereForWhoComesLaterAndTheClockTellsSimulatedTime) {
   while (take(*reader, clock)) continue;
   const double now = clock.clock().sec() + 1e-9 * clock.clock().nanosec();
   EXPECT_NEAR(now, 1e-9 * static_cast<double>(base::to_ns(talk.robot.application().now())), 0.5);
+}
+
+TEST(Out, ADescriptionAsLargeAsAMessageMayBeArrivesAndALargerOneIsRefused) {
+  const std::string path = ::testing::TempDir() + "description_" + std::to_string(::getpid());
+  const auto described = [&](std::size_t size) {
+    std::ofstream(path) << std::string(size, 'x');
+    return deployment(
+        "ros: RobotDescription:\n    model: RobotDescription\n    properties: "
+        "{robot_description: " +
+        path + "}\n");
+  };
+  constexpr std::size_t kLargest = (4u << 20) - 16;
+  EXPECT_THAT(described(kLargest + 1).diagnostics.to_text(),
+              HasSubstr("it is larger than 4194288 bytes"));
+  Talk talk(described(kLargest));
+  std::remove(path.c_str());
+  auto* const reader = talk.peer.read_from<std_msgs::msg::dds_::String_PubSubType>(
+      "rt/robot_description", {.transient_local = true});
+  std_msgs::msg::dds_::String_ text;
+  ASSERT_TRUE(talk.until([&] { return take(*reader, text); }));
+  EXPECT_EQ(text.data().size(), kLargest);
 }
 
 TEST(Out, TransformsAreOfPosesAndOfPlacesInThePlane) {
