@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bridges/ros2/joint_trajectory.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "armature/component/face.hpp"
@@ -101,12 +102,19 @@ void JointTrajectory::work() {
 std::string JointTrajectory::obey(Trajectory trajectory) {
   if (std::string why = objection_to(trajectory); !why.empty()) return why;
   if (present_ == trajectory) return {};
-  // A stop may be stamped by another clock; what was sent before the last motion stays refused.
-  if (trajectory.points.empty()) trajectory.stamp_ns = present_ ? present_->stamp_ns : 0;
+  if (trajectory.points.empty()) trajectory.stamp_ns = stamp_of_stop(trajectory);
   present_ = std::move(trajectory);
   next_ = !present_->points.empty();
   brake();
   return {};
+}
+
+std::int64_t JointTrajectory::now_ns() const { return internal::ns_of(node().stamp_of(time())); }
+
+/// It may be stamped by another clock. What was sent before it, or before the last motion, stays
+/// refused; what is sent after it does not.
+std::int64_t JointTrajectory::stamp_of_stop(const Trajectory& stop) const {
+  return std::max(std::min(stop.stamp_ns, now_ns()), present_ ? present_->stamp_ns : 0);
 }
 
 std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
@@ -114,7 +122,7 @@ std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
   if (present_ && trajectory.stamp_ns != 0 && trajectory.stamp_ns < present_->stamp_ns) {
     return "its stamp is before that of the one before";
   }
-  const std::int64_t ahead_ns = trajectory.stamp_ns - internal::ns_of(node().stamp_of(time()));
+  const std::int64_t ahead_ns = trajectory.stamp_ns - now_ns();
   if (ahead_ns > kMostAhead_ns) {
     return "its stamp is " + std::to_string(1e-9 * static_cast<double>(ahead_ns)) +
            " s ahead of the clock, and it would begin now: " +

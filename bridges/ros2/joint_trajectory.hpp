@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,8 @@ class JointTrajectory final : public Subscriber {
   std::string obey(internal::Trajectory trajectory);
   std::string ask_for_limits();
   std::string objection_to(const internal::Trajectory& trajectory) const;
+  std::int64_t now_ns() const;
+  std::int64_t stamp_of_stop(const internal::Trajectory& stop) const;
   void look_at_motion();
   void look_at_silence();
   void forget();

@@ -234,10 +234,13 @@ TEST(In, EachFieldOfATrajectoryIsTheOneThatItsNameSays) {
 
 TEST(In, ATrajectoryOfAnotherTimeIsRefused) {
   Plays plays;
+  JointTrajectory_ message = trajectory();
+  message.header().stamp(plays.now_and(0s));
   JointTrajectory_ stop;
   stop.header().stamp(plays.now_and(100s));
   EXPECT_TRUE(plays.obeys(stop)) << "a stop is obeyed, whatever its stamp";
-  JointTrajectory_ message = trajectory();
+  EXPECT_FALSE(plays.obeys(message)) << "it was sent before the stop";
+  EXPECT_TRUE(plays.obeys(stop));
   message.header().stamp(plays.now_and(5s));
   EXPECT_FALSE(plays.obeys(message));
   EXPECT_THAT(plays.robot.log, ::testing::HasSubstr("s ahead of the clock"));
