@@ -41,14 +41,14 @@ class JointStates final : public Publisher {
                                    "",   component::range(1, 100000)};
   component::InputPort<Vector> position_{this,
                                          "Position",
-                                         "of each joint",
+                                         "of each joint, as measured",
                                          "",
                                          component::size_of(joints_),
                                          component::on_lost(component::Reaction::kHold),
                                          component::unit_of(units_.position())};
   component::InputPort<Vector> velocity_{this,
                                          "Velocity",
-                                         "of each joint",
+                                         "of each joint, as measured: not the desired one",
                                          "",
                                          component::size_of(joints_),
                                          component::may_stay_open,
@@ -56,7 +56,7 @@ class JointStates final : public Publisher {
                                          component::unit_of(units_.velocity())};
   component::InputPort<Vector> effort_{this,
                                        "Effort",
-                                       "of each joint",
+                                       "of each joint, as measured",
                                        "Nm",
                                        component::size_of(joints_),
                                        component::may_stay_open,

@@ -18,6 +18,9 @@ using internal::Trajectory;
 
 namespace {
 
+/// Clocks of two machines differ by less.
+constexpr std::int64_t kMostAhead_ns = 500'000'000;
+
 Trajectory trajectory_of(const trajectory_msgs_msg_dds__JointTrajectory_& message) {
   Trajectory trajectory;
   trajectory.stamp_ns = internal::ns_of(message.header.stamp);
@@ -99,20 +102,32 @@ void JointTrajectory::work() {
 std::string JointTrajectory::obey(Trajectory trajectory) {
   if (std::string why = objection_to(trajectory); !why.empty()) return why;
   if (present_ == trajectory) return {};
-  // A stop may be stamped by another clock; what was sent before the last motion stays refused.
-  if (trajectory.points.empty() && present_) {
-    trajectory.stamp_ns = std::max(trajectory.stamp_ns, present_->stamp_ns);
-  }
+  if (trajectory.points.empty()) trajectory.stamp_ns = stamp_of_stop(trajectory);
   present_ = std::move(trajectory);
   next_ = !present_->points.empty();
   brake();
   return {};
 }
 
+std::int64_t JointTrajectory::now_ns() const { return internal::ns_of(node().stamp_of(time())); }
+
+/// It may be stamped by another clock. What was sent before it, or before the last motion, stays
+/// refused; what is sent after it does not.
+std::int64_t JointTrajectory::stamp_of_stop(const Trajectory& stop) const {
+  return std::max(std::min(stop.stamp_ns, now_ns()), present_ ? present_->stamp_ns : 0);
+}
+
 std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
   if (trajectory.points.empty()) return {};  // a stop
   if (present_ && trajectory.stamp_ns != 0 && trajectory.stamp_ns < present_->stamp_ns) {
     return "its stamp is before that of the one before";
+  }
+  const std::int64_t ahead_ns = trajectory.stamp_ns - now_ns();
+  if (ahead_ns > kMostAhead_ns) {
+    return "its stamp is " + std::to_string(1e-9 * static_cast<double>(ahead_ns)) +
+           " s ahead of the clock, and it would begin now: " +
+           (is_simulated() ? "stamp it by /clock (use_sim_time), or with 0"
+                           : "send it when its time has come, or stamp it with 0");
   }
   return internal::objection_to(trajectory, limits_);
 }

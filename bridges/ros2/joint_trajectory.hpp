@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,8 @@ namespace armature::ros2 {
 /// It arms nothing: on a robot that is not armed a trajectory is refused. Refused as a whole are
 /// also unknown, double or missing joints, another number of positions, numbers that are not
 /// finite, times that do not rise, efforts, stamps that go backwards, and whatever leaves the
-/// generator's limits.
+/// generator's limits. So is a trajectory that is stamped more than half a second ahead of the
+/// clock: it is to begin later, and here each begins when it comes.
 ///
 /// Who commands says so again and again: the same trajectory renews itself. After `max_silence`
 /// without one the motion brakes on its path, and holds. A new one ends the one before in the same
@@ -46,6 +48,8 @@ class JointTrajectory final : public Subscriber {
   std::string obey(internal::Trajectory trajectory);
   std::string ask_for_limits();
   std::string objection_to(const internal::Trajectory& trajectory) const;
+  std::int64_t now_ns() const;
+  std::int64_t stamp_of_stop(const internal::Trajectory& stop) const;
   void look_at_motion();
   void look_at_silence();
   void forget();

@@ -20,6 +20,8 @@ void Joy::begin() {
 }
 
 void Joy::work() {
+  // Whoever comes after a silence may have another clock.
+  if (is_silent()) stamp_ns_ = 0;
   receive(*reader_, [this](const void* sample) { return obey(sample); });
 }
 

@@ -11,7 +11,8 @@
 namespace armature::ros2 {
 
 /// What a joystick says, as sensor_msgs/Joy. Another number of axes or buttons, an axis that is not
-/// from -1 to 1, and a stamp that goes backwards are refused as a whole.
+/// from -1 to 1, and a stamp that goes backwards are refused as a whole; behind `max_silence`
+/// stamps begin anew.
 class Joy final : public Subscriber {
  public:
   using Subscriber::Subscriber;

@@ -17,8 +17,9 @@ using internal::QosPtr;
 
 /// How many participants of this machine are asked where no multicast asks them.
 constexpr int kMostOnOneMachine = 32;
-/// Of a message in either direction; a reader keeps some hundred.
-constexpr const char* kLargestSample = "4 MB";
+/// How often it says that it is there. Who asks by multicast, as ROS 2 does under
+/// ROS_LOCALHOST_ONLY, finds a node without multicast by this only.
+constexpr const char* kSaysSoEach = "1 s";
 
 bool is_word(std::string_view text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) == 0 &&
@@ -73,10 +74,11 @@ std::string configuration_of(const Network& network) {
   text += std::string("<AllowMulticast>") + (asks_everybody ? "true" : "false") +
           "</AllowMulticast></General>";
   text += "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-          std::to_string(kMostOnOneMachine) + "</MaxAutoParticipantIndex><Peers>";
+          std::to_string(kMostOnOneMachine) + "</MaxAutoParticipantIndex><SPDPInterval>" +
+          kSaysSoEach + "</SPDPInterval><Peers>";
   for (const std::string& peer : peers) text += "<Peer address=\"" + peer + "\"/>";
-  text += std::string("</Peers></Discovery><Internal><MaxSampleSize>") + kLargestSample +
-          "</MaxSampleSize></Internal><Threads>";
+  text += std::string("</Peers></Discovery><Internal><MaxSampleSize>") +
+          std::to_string(kLargestSample) + " B</MaxSampleSize></Internal><Threads>";
   for (const char* name : {"recv", "tev", "gc", "lease", "dq.builtins", "dq.user"}) {
     text += std::string("<Thread name=\"") + name + "\"><StackSize>256 kB</StackSize></Thread>";
   }

@@ -17,6 +17,9 @@ struct dds_topic_descriptor;  // of Cyclone DDS
 
 namespace armature::ros2 {
 
+/// Bytes of a message in either direction; a reader keeps some hundred.
+inline constexpr std::size_t kLargestSample = 4u << 20;
+
 /// Where a node is in the world of ROS 2, and how it finds others.
 struct Network {
   std::string node = "armature";     ///< its name: letters, digits and _

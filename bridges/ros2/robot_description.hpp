@@ -3,18 +3,20 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bridges/ros2/endpoint.hpp"
 
 namespace armature::ros2 {
 
 /// The robot's description (URDF), as std_msgs/String: written once, and kept for whoever comes
-/// later.
+/// later. One that is larger than a message may be is refused.
 class RobotDescription final : public Publisher {
  public:
   using Publisher::Publisher;
 
  private:
+  std::vector<Objection> objections(const Components& components) const override;
   std::string open(const component::Surroundings& surroundings) override;
   void close() override { writer_.reset(); }
   void begin() override;

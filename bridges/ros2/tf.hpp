@@ -11,8 +11,9 @@
 namespace armature::ros2 {
 
 /// Where a frame is in another one, as tf2_msgs/TFMessage: from a Pose, such as that of a tool, or
-/// from X, Y and Heading, such as those of a chassis. One message in each of its cycles in which
-/// there is something new; a number that is not finite is not written, and counted as lost.
+/// from X, Y and Heading of one component, such as a chassis. One message in each of its cycles in
+/// which there is something new; of X, Y and Heading, once they are all of one cycle. A number that
+/// is not finite is not written, and counted as lost.
 class Tf final : public Publisher {
  public:
   using Publisher::Publisher;
@@ -22,6 +23,8 @@ class Tf final : public Publisher {
   std::string open(const component::Surroundings& surroundings) override;
   void close() override { writer_.reset(); }
   void work() override;
+  void check_writers(component::Check& check) const;
+  void look_at_place();
   void publish_pose(const controllers::Pose& pose, base::Time at);
 
   component::Property<std::string> parent_{
@@ -55,6 +58,7 @@ class Tf final : public Publisher {
                                         component::on_lost(component::Reaction::kHold)};
 
   std::unique_ptr<Writer> writer_;
+  std::optional<base::Time> placed_at_;  ///< of what was sent last of X, Y and Heading
 };
 
 }  // namespace armature::ros2

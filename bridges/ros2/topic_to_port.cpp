@@ -40,6 +40,13 @@ std::int64_t integer_of(const types::Type& type, const void* value) {
   }
 }
 
+/// Whether nothing says how large the vectors are that it takes.
+bool takes_any_size(const component::InputPortBase& input) {
+  const types::Type& type = input.type();
+  const bool declared = type.kind == Kind::kVector && input.declared_size().declared();
+  return (declared ? *type.element : type).grows;
+}
+
 /// What is wrong with a value that came; empty if nothing is.
 std::string objection_to_value(const types::Type& root, const void* data) {
   std::string found;
@@ -94,6 +101,11 @@ std::vector<TopicToPort::Objection> TopicToPort::objections(const Components& co
   }
   if (std::string why = types::dds_objection(input->type()); !why.empty()) {
     return {{"'" + port_.get() + "' cannot be a topic: " + why, "name another port"}};
+  }
+  if (takes_any_size(*input)) {
+    return {{"'" + port_.get() + "' takes vectors, and its component does not declare their size",
+             "name an input without vectors, or one that is a vector of declared size "
+             "(component::size_of); numbers come by a Float64MultiArray, which has a size"}};
   }
   return {};
 }

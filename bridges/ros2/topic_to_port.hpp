@@ -9,7 +9,8 @@
 
 namespace armature::ros2 {
 
-/// A topic of its own for any input that may stay open and that nothing else writes. Refused as a
+/// A topic of its own for any input that may stay open and that nothing else writes. If that takes
+/// vectors, it is one itself, and its component declares the size. Refused as a
 /// whole is a message with a number that is not finite, a value that its enumeration does not have,
 /// or a vector of another size than the input takes. `armature models --dds` prints its type.
 ///

@@ -53,10 +53,10 @@ void send_for_ever(fast::DataWriter& writer, const Message& message) {
 void send_trajectory(fast::DataWriter& writer, trajectory_msgs::msg::dds_::JointTrajectory_ message,
                      bool stops) {
   if (!stops) return send_for_ever(writer, message);
-  message.header().stamp().sec(10);
+  message.header().stamp().sec(1);
   while (ended == 0) send(writer, message);
   trajectory_msgs::msg::dds_::JointTrajectory_ stop;
-  stop.header().stamp().sec(5);
+  stop.header().stamp().nanosec(500'000'000);
   send_for_ever(writer, stop);
 }
 

@@ -46,18 +46,26 @@ struct FastQuality {
   int depth = 4000;
 };
 
-/// A participant on the loopback interface, which asks by unicast.
+/// How a peer finds others on this machine.
+enum class Asks {
+  kByUnicast,
+  kByMulticast,  ///< as rmw_fastrtps of ROS 2 Humble does under ROS_LOCALHOST_ONLY
+};
+
+/// A participant on the loopback interface.
 class FastPeer {
  public:
-  explicit FastPeer(int domain) {
+  explicit FastPeer(int domain, Asks asks = Asks::kByUnicast) {
     fast::DomainParticipantQos qos;
     const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList.emplace_back("127.0.0.1");
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(udp);
-    eprosima::fastrtps::rtps::Locator_t peer;
-    eprosima::fastrtps::rtps::IPLocator::setIPv4(peer, "127.0.0.1");
-    qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+    if (asks == Asks::kByUnicast) {
+      eprosima::fastrtps::rtps::Locator_t peer;
+      eprosima::fastrtps::rtps::IPLocator::setIPv4(peer, "127.0.0.1");
+      qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+    }
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<std::uint32_t>(domain), qos);
     publisher_ = participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT);

@@ -120,22 +120,31 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.5, -1.0));
   EXPECT_THAT(talk.robot.value<std::vector<int>>("Joy", "Buttons"), ElementsAre(1));
   std::vector<sensor_msgs::msg::dds_::Joy_> wrong(4, joy);
-  wrong[0].axes({0.1f});
-  wrong[1].buttons({0, 0});
-  wrong[2].axes({0.1f, 1.5f});
-  wrong[3].axes({0.1f, 0.1f});
-  wrong[3].header().stamp().sec(4);
+  wrong[0].axes({0.1f, 0.1f});
+  wrong[0].header().stamp().sec(4);  // within max_silence
+  wrong[1].axes({0.1f});
+  wrong[2].buttons({0, 0});
+  wrong[3].axes({0.1f, 1.5f});
   for (const auto& each : wrong) {
     const std::uint64_t refused = talk.count("Joy", "Refused");
     talk.send(joys, each, "Joy");
     EXPECT_GT(talk.count("Joy", "Refused"), refused);
   }
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.5, -1.0));
+  // Behind a silence another one may send, whose clock has another time.
+  talk.robot.run_for(600ms);
+  auto& other = *talk.peer.write_to<sensor_msgs::msg::dds_::Joy_PubSubType>("rt/joy");
+  joy.header().stamp().sec(3);
+  joy.axes({0.25f, 0.5f});
+  talk.send(other, joy, "Joy");
+  EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.25, 0.5));
 
   auto& arrays =
       *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
   std_msgs::msg::dds_::Float64MultiArray_ array;
   array.data({-1.0, 2.0});
+  array.layout().dim().resize(1);  // which is for people
+  array.layout().dim()[0].label("joints");
   talk.send(arrays, array, "Numbers");
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
   for (const std::vector<double>& each :
@@ -145,7 +154,103 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
     talk.send(arrays, array, "Numbers");
     EXPECT_GT(talk.count("Numbers", "Refused"), refused);
   }
+  array.data({0.0, 0.0});
+  array.layout().data_offset(1);
+  const std::uint64_t refused = talk.count("Numbers", "Refused");
+  talk.send(arrays, array, "Numbers");
+  EXPECT_GT(talk.count("Numbers", "Refused"), refused);
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
+}
+
+using trajectory_msgs::msg::dds_::JointTrajectory_;
+
+/// Of two joints, through two points.
+JointTrajectory_ trajectory() {
+  JointTrajectory_ message;
+  message.joint_names({"pan", "tilt"});
+  message.points().resize(2);
+  message.points()[0].positions({0.1, 0.1});
+  message.points()[0].velocities({0.1, 0.1});
+  message.points()[0].accelerations({0.0, 0.0});
+  message.points()[0].time_from_start().nanosec(900'000'000);
+  message.points()[1] = message.points()[0];
+  message.points()[1].positions({0.2, 0.2});
+  message.points()[1].velocities({0.0, 0.0});
+  message.points()[1].time_from_start().sec(2);
+  message.points()[1].time_from_start().nanosec(0);
+  return message;
+}
+
+/// An application that plays trajectories for a Player; armed, and ready to hear.
+struct Plays : Talk {
+  Plays()
+      : Talk(deployment(
+            "Operator: {model: Operator, activity: {periodic: 2 ms}}\n"
+            "Player: {model: Player, activity: {periodic: 2 ms}, peers: [Operator]}\n"
+            "ros: Trajectory:\n    model: JointTrajectory\n    peers: [Operator, Player]\n"
+            "    properties: {joints: 2, joint_names: [pan, tilt]}\n",
+            "  - Player.nAxesDesiredPosition -> Trajectory.nAxesDesiredPosition\n")) {
+    EXPECT_EQ(robot.call("Operator", "arm"), "");
+    robot.run_for(600ms);
+    writer = peer.write_to<trajectory_msgs::msg::dds_::JointTrajectory_PubSubType>(
+        "rt/joint_trajectory");
+  }
+  bool obeys(const JointTrajectory_& message) {
+    const std::uint64_t refused = count("Trajectory", "Refused");
+    send(*writer, message, "Trajectory");
+    return count("Trajectory", "Refused") == refused;
+  }
+  /// As a header has it.
+  builtin_interfaces::msg::dds_::Time_ now_and(base::Duration more) {
+    const std::int64_t ns = base::to_ns(robot.application().now()) + more.count();
+    builtin_interfaces::msg::dds_::Time_ stamp;
+    stamp.sec(static_cast<std::int32_t>(ns / 1'000'000'000));
+    stamp.nanosec(static_cast<std::uint32_t>(ns % 1'000'000'000));
+    return stamp;
+  }
+
+  fast::DataWriter* writer = nullptr;
+};
+
+TEST(In, EachFieldOfATrajectoryIsTheOneThatItsNameSays) {
+  Plays plays;
+  const auto expect_refused = [&](const char* why, const auto& spoil) {
+    JointTrajectory_ message = trajectory();
+    spoil(message.points()[1]);
+    EXPECT_FALSE(plays.obeys(message)) << why;
+    EXPECT_THAT(plays.robot.log, ::testing::HasSubstr(why));
+    EXPECT_TRUE(plays.obeys(JointTrajectory_())) << "a stop, with which a series of refusals ends";
+  };
+  expect_refused("point 2: joint 'tilt' is to be at 1.5", [](auto& p) { p.positions({0.0, 1.5}); });
+  expect_refused("point 2: 1 velocities", [](auto& p) { p.velocities({0.0}); });
+  expect_refused("point 2: 3 accelerations", [](auto& p) { p.accelerations({0.0, 0.0, 0.0}); });
+  expect_refused("point 2: efforts", [](auto& p) { p.effort({0.0, 0.0}); });
+  expect_refused("point 2: time_from_start is not later", [](auto& p) {
+    p.time_from_start().sec(0);
+    p.time_from_start().nanosec(899'999'999);
+  });
+  EXPECT_TRUE(plays.obeys(trajectory())) << plays.robot.log;
+}
+
+TEST(In, ATrajectoryOfAnotherTimeIsRefused) {
+  Plays plays;
+  JointTrajectory_ message = trajectory();
+  message.header().stamp(plays.now_and(0s));
+  JointTrajectory_ stop;
+  stop.header().stamp(plays.now_and(100s));
+  EXPECT_TRUE(plays.obeys(stop)) << "a stop is obeyed, whatever its stamp";
+  EXPECT_FALSE(plays.obeys(message)) << "it was sent before the stop";
+  EXPECT_TRUE(plays.obeys(stop));
+  message.header().stamp(plays.now_and(5s));
+  EXPECT_FALSE(plays.obeys(message));
+  EXPECT_THAT(plays.robot.log, ::testing::HasSubstr("s ahead of the clock"));
+  EXPECT_FALSE(plays.robot.value<bool>("Trajectory", "Moves"));
+  message.header().stamp(plays.now_and(400ms));
+  EXPECT_TRUE(plays.obeys(message)) << plays.robot.log;
+  EXPECT_TRUE(plays.until([&] { return plays.robot.value<bool>("Trajectory", "Moves"); }));
+  message.header().stamp(plays.now_and(-100ms));
+  EXPECT_FALSE(plays.obeys(message));
+  EXPECT_THAT(plays.robot.log, ::testing::HasSubstr("its stamp is before that of the one before"));
 }
 
 /// Of RTPS, with a submessage that is shorter than any of its kind.

@@ -21,37 +21,49 @@ class Numbers final : public component::Component {
 
  private:
   component::Outcome on_configure() override {
-    Walk walk;
-    walk.between.resize(2);
-    walk.numbers.resize(3);
-    walk_.set_sample(walk);
+    Hike hike;
+    hike.between.resize(2);
+    hike.numbers.resize(3);
+    hike_.set_sample(hike);
     position_.set_sample({0.0, 0.0});
     velocity_.set_sample({0.0, 0.0});
+    effort_.set_sample({0.0, 0.0});
     image_.set_sample(std::vector<std::uint8_t>(2 * 2 * 3));
     return component::accepted();
   }
   void on_update() override {
-    if (const auto walk = walk_in_.read()) walks_.write(walks_.last() + (walk.is_new() ? 1 : 0));
+    if (const auto walk = walk_in_.read(); walk.is_new()) walk_.write(walk.value);
+    if (const auto wanted = wanted_.read(); wanted.is_new()) position_.write(wanted.value);
   }
 
   component::OutputPort<std::vector<double>> position_{this, "Position", "of two joints", "rad"};
   component::OutputPort<std::vector<double>> velocity_{this, "Velocity", "of two joints", "rad/s"};
+  component::OutputPort<std::vector<double>> effort_{this, "Effort", "of two joints", "Nm"};
   component::OutputPort<controllers::Pose> pose_{this, "Pose", "of a tool"};
   component::OutputPort<double> x_{this, "X", "of a chassis", "m"};
   component::OutputPort<double> heading_{this, "Heading", "of a chassis", "rad"};
   component::OutputPort<std::vector<std::uint8_t>> image_{this, "Image", "two by two pixels"};
-  component::OutputPort<Walk> walk_{this, "Walk", "of all kinds of types"};
-  component::OutputPort<int> walks_{this, "Walks", "that came"};
+  component::OutputPort<Hike> hike_{this, "Hike", "of all kinds of types"};
+  component::OutputPort<Walk> walk_{this, "Walk", "that came"};
   component::InputPort<Walk> walk_in_{this,
                                       "WalkIn",
-                                      "of all kinds of types",
+                                      "of all kinds of types but vectors",
                                       "",
                                       component::may_stay_open,
                                       component::max_age(std::chrono::seconds(10))};
+  component::InputPort<Hike> hike_in_{this, "HikeIn", "with vectors inside", "",
+                                      component::may_stay_open};
+  component::InputPort<std::vector<double>> any_{this, "Any", "of any number", "",
+                                                 component::may_stay_open};
   component::InputPort<double> voltage_{this, "Voltage", "an effort", "V",
                                         component::may_stay_open};
-  component::InputPort<std::vector<double>> wanted_{this, "Wanted", "of two joints", "rad",
-                                                    component::may_stay_open};
+  component::InputPort<std::vector<double>> wanted_{this,
+                                                    "Wanted",
+                                                    "of two joints",
+                                                    "rad",
+                                                    component::fixed_size(2),
+                                                    component::may_stay_open,
+                                                    component::max_age(std::chrono::seconds(10))};
 };
 
 /// Stands for Arming.
@@ -110,6 +122,34 @@ class Base final : public component::Component {
   component::EventHandler<> stop_{this, "Stop", component::serve<&Base::brake>, "brakes",
                                   component::optional};
   component::Command<> drive_{this, "drive", component::serve<&Base::drive>, "drives"};
+};
+
+/// Stands for a generator of two joints that plays paths.
+class Player final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  using Vector = std::vector<double>;
+
+  component::Outcome on_configure() override {
+    desired_.set_sample(present_);
+    return component::accepted();
+  }
+  void on_update() override { desired_.write(present_); }
+  component::Outcome play(const Vector& /*path*/, double /*speed*/) {
+    return component::accepted();
+  }
+  void brake() {}
+
+  const Vector present_{0.0, 0.0};
+  component::Property<Vector> lower_{this, "lower", {-1.0}, "of each joint", "rad"};
+  component::Property<Vector> upper_{this, "upper", {1.0}, "of each joint", "rad"};
+  component::OutputPort<Vector> desired_{this, "nAxesDesiredPosition", "of two joints", "rad"};
+  component::Command<const Vector&, double> play_{this, "playPath", component::serve<&Player::play>,
+                                                  "plays a path"};
+  component::EventHandler<> stop_{this, "Stop", component::serve<&Player::brake>, "brakes",
+                                  component::optional};
 };
 
 /// Stands for a joint: the operator alone has it home.

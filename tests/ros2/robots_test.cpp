@@ -160,6 +160,20 @@ TEST(JointTrajectory, NeedsAGeneratorThatTheSameOperatorStops) {
       << unstopped.diagnostics.to_text();
 }
 
+TEST(JointStates, HaveNoVelocityWhereNothingMeasuresIt) {
+  for (const char* file : {"janus.yaml", "wam.yaml"}) {
+    testing::DeployedRobot robot(example(file));
+    ASSERT_EQ(robot.start(), "");
+    const component::Component& states = *robot.application().find("JointStates");
+    for (const auto* input : component::interface_of(states).inputs) {
+      for (const auto* writer : input->writers()) {
+        EXPECT_EQ(writer->owner().name(), "BridgeRef") << file << " " << input->name();
+      }
+      EXPECT_EQ(input->writers().empty(), input->name() != "Position") << file;
+    }
+  }
+}
+
 TEST(CmdVel, DrivesTheRoverAndACommanderThatDiesStopsIt) {
   testing::DeployedRobot rover(example("rover.yaml"));
   ASSERT_EQ(rover.start(), "");

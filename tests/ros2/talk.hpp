@@ -34,6 +34,7 @@ inline deploy::Deployment deployment(const std::string& components,
     registry.add<Relay>("Relay", "passes on");
     registry.add<Base>("Base", "drives");
     registry.add<Axis>("Axis", "homes");
+    registry.add<Player>("Player", "plays paths");
     registry.add<Ticker>("Ticker", "counts");
     registry.add<Listener>("Listener", "listens");
   };
@@ -87,6 +88,16 @@ class Talk {
       return calm > 30;
     });
   }
+
+  /// @param header  is stamped between `begin` and now, in simulated time
+  void expect_stamped_since(base::Time begin, const std_msgs::msg::dds_::Header_& header) {
+    const base::Time stamp(std::chrono::seconds(header.stamp().sec()) +
+                           std::chrono::nanoseconds(header.stamp().nanosec()));
+    EXPECT_GE(stamp, begin);
+    EXPECT_LE(stamp, robot.application().now());
+  }
+  /// What is written from now on has no stamp before that.
+  base::Time last_cycle() { return robot.application().now() - 2ms; }
 
   FastPeer peer{kDomain};
   testing::DeployedRobot robot;

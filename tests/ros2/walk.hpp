@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// A port of all kinds of types; walk.idl is what `armature models --dds` writes of it.
+// Ports of all kinds of types; walk.idl is what `armature models --dds` writes of them.
 
 #include <array>
 #include <cstdint>
@@ -30,11 +30,17 @@ struct Walk {
   std::int64_t large = 0;
   Spot begin{};
   std::array<Spot, 2> ends{};
-  std::vector<Spot> between{};
   base::FixedText<15> name{};
   std::array<std::array<std::int16_t, 3>, 2> matrix{};
+};
+ARMATURE_STRUCT(Walk, on, way, small, steps, large, begin, ends, name, matrix);
+
+/// With vectors inside: it can be written to a topic, and not be read.
+struct Hike {
+  Walk walk{};
+  std::vector<Spot> between{};
   std::vector<double> numbers{};
 };
-ARMATURE_STRUCT(Walk, on, way, small, steps, large, begin, ends, between, name, matrix, numbers);
+ARMATURE_STRUCT(Hike, walk, between, numbers);
 
 }  // namespace armature::ros2

@@ -19,6 +19,9 @@ inline std_msgs_msg_dds__Header_ header_of(const Stamp& stamp, const std::string
   return header;
 }
 
+inline std::int64_t ns_of(const Stamp& stamp) {
+  return std::int64_t{1'000'000'000} * stamp.sec + stamp.nanosec;
+}
 inline std::int64_t ns_of(const builtin_interfaces_msg_dds__Time_& time) {
   return std::int64_t{1'000'000'000} * time.sec + time.nanosec;
 }
