@@ -194,25 +194,5 @@ TEST_F(Messages, DiagnosticsImagesAndNodes) {
       "nodes", participant_entities_type(), entities);
 }
 
-/// Milliseconds that are waited until a peer that begins now has found our reader.
-int waits_until_found(Participant& ours, Asks asks) {
-  const auto reader = ours.read_from("found", string_type(), {});
-  FastPeer peer(kDomain, asks);
-  auto* const writer = peer.write_to<std_msgs::msg::dds_::String_PubSubType>("rt/found");
-  int waits = 0;
-  EXPECT_TRUE(wait_until([&] {
-    ++waits;
-    return is_matched(*writer);
-  }));
-  return waits;
-}
-
-TEST_F(Messages, WhoAsksByMulticastFindsTheNodeWithinItsNextAnnouncement) {
-  // Behind the first one the next announcement is as far away as it can be.
-  for (int k = 0; k < 2; ++k) {
-    EXPECT_LT(waits_until_found(*sides->ours, Asks::kByMulticast), 4000);
-  }
-}
-
 }  // namespace
 }  // namespace armature::ros2
