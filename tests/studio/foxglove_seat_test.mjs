@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node --experimental-websocket --test foxglove_seat_test.mjs, with ARMATURE=the program: who operates hands the seat
+// node --test foxglove_seat_test.mjs, with ARMATURE=the program: who operates hands the seat
 // over to a client of Foxglove, which then sets parameters. Skipped without chromium.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";

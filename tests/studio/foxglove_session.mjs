@@ -8,7 +8,9 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 
-const { FoxgloveClient } = createRequire(new URL("../../web/package.json", import.meta.url))("@foxglove/ws-protocol");
+const from_web = createRequire(new URL("../../web/package.json", import.meta.url));
+const { FoxgloveClient } = from_web("@foxglove/ws-protocol");
+const { WebSocket } = from_web("ws"); // Debian's Node.js has none of its own
 const program = process.env.ARMATURE;
 export const folder = mkdtempSync(join(tmpdir(), "foxglove_test_"));
 const children = [];

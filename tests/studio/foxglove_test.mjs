@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node --experimental-websocket --test foxglove_test.mjs, with ARMATURE=the program: what Foxglove's own client
+// node --test foxglove_test.mjs, with ARMATURE=the program: what Foxglove's own client
 // library finds at a studio.
 import assert from "node:assert/strict";
 import { connect } from "node:net";

@@ -31,7 +31,7 @@ export function calls_text(calls: readonly Call[]): string {
 /** With the call at `index` moved by so many places. */
 export function moved<Item>(items: readonly Item[], index: number, by: number): Item[] {
   const rest = items.filter((_, i) => i !== index);
-  return rest.toSpliced(index + by, 0, items[index]!);
+  return [...rest.slice(0, index + by), items[index]!, ...rest.slice(index + by)];
 }
 
 /** Of components beside those of the box; a part of a composite calls its neighbours by their own names. */
