@@ -14,6 +14,7 @@
 
 #include "armature/ride/internal/test_vision.hpp"
 #include "armature/ride/node.hpp"
+#include "armature/testing/kept_port.hpp"
 
 namespace armature::ride {
 namespace {
@@ -72,7 +73,7 @@ NodeOptions quick() {
 }
 
 /// A camera behind a server, and a client, over TCP and over a socket file.
-class PlaceholderTest : public testing::TestWithParam<const char*> {
+class PlaceholderTest : public ::testing::TestWithParam<const char*> {
  protected:
   PlaceholderTest() {
     serve();
@@ -82,15 +83,8 @@ class PlaceholderTest : public testing::TestWithParam<const char*> {
   void serve() {
     server_.emplace(server_options_);
     EXPECT_EQ(server_->add("camera", camera_).value(), 1u);  // Before anybody can look for it.
-    const bool tcp = std::string(GetParam()) == "tcp";
-    if (address_.empty()) {
-      address_ =
-          tcp ? "tcp://127.0.0.1:0"
-              : "unix:" + testing::TempDir() + "ride_placeholder_" + std::to_string(::getpid());
-    }
     const auto got = server_->listen(address_);
     ASSERT_TRUE(got.ok()) << got.error();
-    address_ = got.value().text();
   }
   Peer& peer() { return client_.connect(address_); }
   Peer& connected(Node& client) {
@@ -99,14 +93,18 @@ class PlaceholderTest : public testing::TestWithParam<const char*> {
     return peer;
   }
 
-  std::string address_;
+  const testing::KeptPort port_;
+  const std::string address_ =
+      GetParam() == std::string("tcp")
+          ? port_.address()
+          : "unix:" + ::testing::TempDir() + "ride_placeholder_" + std::to_string(::getpid());
   NodeOptions server_options_;
   Camera camera_;
   std::optional<Node> server_;
   Node client_{quick()};
 };
 
-INSTANTIATE_TEST_SUITE_P(All, PlaceholderTest, testing::Values("tcp", "unix"),
+INSTANTIATE_TEST_SUITE_P(All, PlaceholderTest, ::testing::Values("tcp", "unix"),
                          [](const auto& which) { return which.param; });
 
 TEST_P(PlaceholderTest, ARequestBringsTheResult) {

@@ -19,6 +19,7 @@
 #include "armature/ride/placeholder.hpp"
 #include "armature/ride/policy.hpp"
 #include "armature/ride/service.hpp"
+#include "armature/testing/kept_port.hpp"
 #include "armature/tls/internal/test_certificates.hpp"
 
 namespace armature::tls {
@@ -104,12 +105,12 @@ class Log {
       grown_.notify_all();
     };
   }
-  testing::AssertionResult tells(const std::string& what) {
+  ::testing::AssertionResult tells(const std::string& what) {
     std::unique_lock lock(mutex_);
     if (grown_.wait_for(lock, 20s, [&] { return text_.find(what) != std::string::npos; })) {
-      return testing::AssertionSuccess();
+      return ::testing::AssertionSuccess();
     }
-    return testing::AssertionFailure() << "'" << what << "' is not in:\n" << text_;
+    return ::testing::AssertionFailure() << "'" << what << "' is not in:\n" << text_;
   }
 
  private:
@@ -118,7 +119,7 @@ class Log {
   std::string text_;
 };
 
-class TlsNode : public testing::Test {
+class TlsNode : public ::testing::Test {
  protected:
   /// Of its own authority, unless another is given.
   std::shared_ptr<ride::Transport> transport(const internal::Wish& wish,
@@ -139,7 +140,7 @@ class TlsNode : public testing::Test {
     server_options_.transports.push_back(transport({}));
     server_.emplace(server_options_);
     ASSERT_TRUE(server_->add("Lamp", lamp_).ok());
-    const auto got = server_->listen("tls://127.0.0.1:0");
+    const auto got = server_->listen(port_.address("tls"));
     ASSERT_TRUE(got.ok()) << got.error();
     address_ = got.value();
   }
@@ -188,6 +189,7 @@ class TlsNode : public testing::Test {
   Lamp lamp_;
   ride::NodeOptions server_options_;
   ride::NodeOptions client_options_;
+  const testing::KeptPort port_;
   ride::Address address_;
   std::optional<ride::Node> server_;
   std::optional<ride::Node> client_;

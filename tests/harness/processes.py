@@ -2,10 +2,12 @@
 """Programs that tests type to, and stop and kill. Nothing here depends on how fast the machine is: what
 is waited for has to come true in a long while."""
 
+import contextlib
 import ctypes
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -27,6 +29,16 @@ def wait_for(condition, what, limit=LONG):
             return found
         time.sleep(0.005)
     raise Broken(f"it did not come true: {what}")
+
+
+@contextlib.contextmanager
+def kept_port():
+    """A port of this machine at which a program of the test may listen again and again, and which the system gives to nobody else
+    meanwhile, such as to the next test."""
+    with socket.socket() as one:
+        one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        one.bind(("127.0.0.1", 0))
+        yield one.getsockname()[1]
 
 
 LIBC = ctypes.CDLL(None)

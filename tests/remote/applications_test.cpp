@@ -9,19 +9,20 @@
 
 #include "armature/component/interface.hpp"
 #include "armature/remote/placeholder.hpp"
+#include "armature/testing/kept_port.hpp"
 #include "tests/remote/processes.hpp"
 
 namespace armature::remote {
 namespace {
 
 using namespace test;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-struct Remote : testing::Test {
+struct Remote : ::testing::Test {
   void start() {
-    robot = std::make_unique<Process>(server());
+    robot = std::make_unique<Process>(server(port.address()));
     robot->start();
-    pilot = std::make_unique<Process>(client(robot->address()));
+    pilot = std::make_unique<Process>(client(port.address()));
     start_pilot();
   }
   /// Its start asks for what the robot's controlling thread answers.
@@ -36,6 +37,7 @@ struct Remote : testing::Test {
   }
   Placeholder& there() const { return pilot->find<Placeholder>("There"); }
 
+  const testing::KeptPort port;
   std::unique_ptr<Process> robot;
   std::unique_ptr<Process> pilot;
   User* user = nullptr;
@@ -85,15 +87,14 @@ TEST_F(Remote, WhatNobodyUsesElsewhereIsNotListenedTo) {
 TEST_F(Remote, ALostPeerIsToldAndComesBackByItself) {
   start();
   EXPECT_TRUE(until([&] { return user->position > 5.0; }));
-  const std::string address = robot->address();
   robot.reset();
   EXPECT_TRUE(until([&] { return there().state() == State::kRunTimeError; }));
   EXPECT_TRUE(until([&] { return user->lost == 1; }));
   EXPECT_TRUE(until([&] { return user->status == component::CallStatus::kUnreachable; }));
   EXPECT_TRUE(until([&] {
-    return pilot->log.find("'Axis' at " + address + " cannot be used") != std::string::npos;
+    return pilot->log.find("'Axis' at " + port.address() + " cannot be used") != std::string::npos;
   }));
-  robot = std::make_unique<Process>(server(address));
+  robot = std::make_unique<Process>(server(port.address()));
   robot->start();
   user->position = 0.0;
   EXPECT_TRUE(until([&] { return there().state() == State::kRunning; }));
@@ -112,17 +113,13 @@ TEST_F(Remote, ACommandUnderWayFailsWithTheConnection) {
 }
 
 TEST_F(Remote, APilotMayStartBeforeTheRobot) {
-  const auto free = std::make_unique<Process>(server());
-  free->start();
-  const std::string address = free->address();
-  free->~Process();
-  new (free.get()) Process(server(address));
-  pilot = std::make_unique<Process>(client(address));
+  pilot = std::make_unique<Process>(client(port.address()));
   start_pilot();
   EXPECT_TRUE(until([&] { return there().state() == State::kRunTimeError; }));
   EXPECT_EQ(user->position, 0.0);
-  free->start();
-  EXPECT_TRUE(serve_until({pilot.get(), free.get()}, [&] { return user->position > 0.0; }));
+  robot = std::make_unique<Process>(server(port.address()));
+  robot->start();
+  EXPECT_TRUE(until([&] { return user->position > 0.0; }));
 }
 
 TEST_F(Remote, OnlyInputsThatTheDeploymentOpensAreWrittenFromElsewhere) {

@@ -18,6 +18,7 @@
 #include "armature/general/controls/sequence.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "armature/ride/node.hpp"
+#include "armature/testing/kept_port.hpp"
 #include "lift_service.hpp"
 #include "tests/remote/processes.hpp"
 
@@ -25,7 +26,7 @@ namespace armature::remote {
 namespace {
 
 using namespace test;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// The one without any component: travels at once.
 class Lift final : public lift::LiftService {
@@ -168,7 +169,7 @@ struct Foreign {
 
 const std::string kFile = std::string(REMOTE_TESTDATA) + "/lift.idl";
 
-struct ByInterfaceFile : testing::Test {
+struct ByInterfaceFile : ::testing::Test {
   static void add_models(component::Registry& models) {
     models.add<Cabin>("Cabin", "");
     models.add<Caller>("Caller", "");
@@ -253,7 +254,7 @@ TEST_F(ByInterfaceFile, SeveralOfACommandAreUnderWayInOrderAndTheEndOfEachIsTold
   EXPECT_EQ(text_of("Enter", "Refused"), "0");
   foreign->lift.open_the_door();
   EXPECT_TRUE(until([&] { return foreign->lift.stops_ == 3; }));
-  EXPECT_THAT(foreign->lift.entered(), testing::ElementsAre(80.0, 81.0, 82.0, 83.0));
+  EXPECT_THAT(foreign->lift.entered(), ::testing::ElementsAre(80.0, 81.0, 82.0, 83.0));
   EXPECT_EQ(text_of("Enter", "Failures"), "1");
   EXPECT_TRUE(until_logged("it is full"));
 }
@@ -358,7 +359,7 @@ TEST_F(ByInterfaceFile, NoRequestAsksItFromARealTimeThread) {
   std::string urgent = kAsk;
   urgent.replace(urgent.find("2 ms}"), 5, "2 ms, priority: 40}");
   EXPECT_THAT(mistakes(components("tcp://127.0.0.1:1") + urgent),
-              testing::HasSubstr(
+              ::testing::HasSubstr(
                   "'Ask' asks 'Lift.add' of another process from the real-time thread 'Ask'"));
 }
 
@@ -393,19 +394,17 @@ TEST_F(ByInterfaceFile, WhatComesOutOfItsRangeIsLeftOutAndCounted) {
 }
 
 TEST_F(ByInterfaceFile, ItMayBeMissingAtTheStartAndDieAndComeBack) {
-  foreign = std::make_unique<Foreign>();
-  const std::string address = foreign->at;
-  foreign.reset();
+  const testing::KeptPort port;
   start(
       "  - {on: Cabin.Pressed, do: Lift.travel, name: Up, with: {height: 1 m, quickly: false}}\n"
       "  - Lift.Called -> Cabin.come\n",
-      address);
+      port.address());
   const auto state = [&] { return application->find<Placeholder>("Lift").state(); };
   EXPECT_TRUE(until([&] { return state() == State::kRunTimeError; }));
   cabin->press = 1;
   EXPECT_TRUE(until([&] { return text_of("Up", "Refused") == "1"; }));
   for (int life = 1; life <= 2; ++life) {
-    foreign = std::make_unique<Foreign>(address);
+    foreign = std::make_unique<Foreign>(port.address());
     EXPECT_TRUE(until([&] { return state() == State::kRunning; }));
     cabin->press = 1;
     EXPECT_TRUE(until([&] { return foreign->lift.travels_ == 1; }));
@@ -429,7 +428,7 @@ TEST_F(ByInterfaceFile, AComponentWithAnotherInterfaceIsNotUsed) {
 }
 
 TEST_F(ByInterfaceFile, AnotherDefinitionOfItsInterfaceIsToldAndUsedAsFarAsItIsTheSame) {
-  const std::string file = testing::TempDir() + "another_lift.idl";
+  const std::string file = ::testing::TempDir() + "another_lift.idl";
   std::ofstream(file) << "interface Lift { void stop(); void fly(); };";
   foreign = std::make_unique<Foreign>();
   application = std::make_unique<Process>(

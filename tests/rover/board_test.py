@@ -10,12 +10,11 @@ pilot here commands what follows of it, and that the wheels there turn and rest.
 
 import os
 import signal
-import socket
 import sys
 from pathlib import Path
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "harness"))
-from processes import Broken, Process, wait_for
+from processes import Broken, Process, kept_port, wait_for
 
 PROGRAM, LIBRARIES, ROVER = map(os.path.abspath, sys.argv[1:4])
 EMULATOR, SYSTEM, BUNDLE = sys.argv[4], os.path.abspath(sys.argv[5]), Path(sys.argv[6]).resolve()
@@ -23,12 +22,6 @@ LONG = 120.0
 STARTS = 10
 # Far enough away that the rover drives for a while.
 BALL = ["--set", "Ball.BeginX=2.0", "--set", "Ball.BeginY=0.3"]
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 def speed(robot):
@@ -63,8 +56,7 @@ def end(process):
     process.process.wait()
 
 
-def main():
-    at = f"tcp://127.0.0.1:{free_port()}"
+def drive(at):
     robot = armed_robot(at)
     pilot = Process([PROGRAM, "run", os.path.join(ROVER, "deployments/pilot.yaml"), "-L", LIBRARIES, "--realtime", "off", "--browse",
                      "--set", f"chassis={at}", "--set", f"vision={at}"])
@@ -83,4 +75,5 @@ def main():
         end(pilot)
 
 
-main()
+with kept_port() as number:
+    drive(f"tcp://127.0.0.1:{number}")

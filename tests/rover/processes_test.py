@@ -11,22 +11,15 @@ to rest are those of the simulated faults (pilot_test.cpp, chassis_test.cpp); he
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "harness"))
-from processes import Process, main_with_second_chances, wait_for
+from processes import Process, kept_port, main_with_second_chances, wait_for
 
 PROGRAM, LIBRARIES, ROVER = map(os.path.abspath, sys.argv[1:4])
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 class Rover(unittest.TestCase):
@@ -34,7 +27,7 @@ class Rover(unittest.TestCase):
 
     def setUp(self):
         self.folder = self.enterContext(tempfile.TemporaryDirectory())
-        self.robot_at, self.vision_at = (f"{self.SCHEME}://127.0.0.1:{free_port()}" for _ in range(2))
+        self.robot_at, self.vision_at = (f"{self.SCHEME}://127.0.0.1:{self.enterContext(kept_port())}" for _ in range(2))
 
     def run_file(self, name, *overrides):
         sets = [word for one in overrides for word in ("--set", one)]

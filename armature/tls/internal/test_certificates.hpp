@@ -76,7 +76,7 @@ class Folder {
  public:
   Folder() {
     std::random_device random;
-    path_ = std::filesystem::path(testing::TempDir()) /
+    path_ = std::filesystem::path(::testing::TempDir()) /
             ("tls_" + std::to_string(random()) + "_" + std::to_string(random()));
     std::filesystem::create_directory(path_);
   }

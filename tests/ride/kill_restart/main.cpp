@@ -17,6 +17,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include "armature/testing/kept_port.hpp"
 #include "counter.hpp"
 #include "survivor.hpp"
 
@@ -143,11 +144,6 @@ void client_dies(const std::string& address, std::uint32_t lives) {
   }
 }
 
-std::string free_tcp_address() {
-  ride::Node node;
-  return node.listen("tcp://127.0.0.1:0").value().text();
-}
-
 void run(const char* what, void (*scene)(const std::string&, std::uint32_t),
          const std::string& address, std::uint32_t lives) {
   std::printf("%s, %s: %u times\n", what, address.substr(0, address.find(':')).c_str(), lives);
@@ -172,9 +168,10 @@ int main(int count, char** arguments) {
   const auto each = static_cast<std::uint32_t>(std::stoul(words[1]) / 4);
   const std::string file = "unix:" + std::filesystem::temp_directory_path().string() +
                            "/ride_kill_restart_" + std::to_string(::getpid());
-  run("the server dies", server_dies, free_tcp_address(), each);
+  const armature::testing::KeptPort port;
+  run("the server dies", server_dies, port.address(), each);
   run("the server dies", server_dies, file, each);
-  run("the client dies", client_dies, free_tcp_address(), each);
+  run("the client dies", client_dies, port.address(), each);
   run("the client dies", client_dies, file, each);
   std::filesystem::remove(file.substr(5));
 }
