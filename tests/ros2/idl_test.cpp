@@ -15,7 +15,9 @@ namespace {
 /// {package/Name: its fields in order, each with a ; behind it}
 using Messages = std::map<std::string, std::string>;
 
-// Copied from the .msg files field by field, types of the same package with its name.
+// Field by field, types of the same package with its name. Not of all was the .msg file at hand:
+// Header, JointState, DiagnosticArray, Vector3 and some others are as second sources and their
+// users have them.
 const Messages kHumble{
     {"builtin_interfaces/Time", "int32 sec; uint32 nanosec; "},
     {"builtin_interfaces/Duration", "int32 sec; uint32 nanosec; "},
