@@ -67,6 +67,7 @@ def report(pairs, threads, driving):
         print(f"{of}: a cycle takes {statistics.median(bare for bare, _ in medians):.2f} us without, "
               f"{statistics.median(more for _, more in medians):.2f} us with; ratio {ratio:.3f}")
     for name in threads:
-        told = [[run.counts[name] for run in side if name in run.counts] for side in zip(*whole)]
-        counts = [tuple(map(sum, zip(*side))) for side in told]
-        print(f"{name}: skipped {counts[0][1]} of {counts[0][0]} cycles without, {counts[1][1]} of {counts[1][0]} with")
+        # Where nobody reads the console in time, lines of the summary are lost.
+        (run, skipped), (run_with, skipped_with) = (
+            map(sum, zip(*(each.counts.get(name, (0, 0)) for each in side))) for side in zip(*whole))
+        print(f"{name}: skipped {skipped} of {run} cycles without, {skipped_with} of {run_with} with")
