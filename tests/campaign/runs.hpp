@@ -36,10 +36,10 @@ inline std::optional<int> number_in_environment(const std::string& name) {
 constexpr int kRunsInTests = 3;
 
 /// @param campaign  as the environment begins: `WAM` of `WAM_CAMPAIGN_RUNS`
-inline std::vector<int> numbers_of_runs(const std::string& campaign) {
+inline std::vector<int> numbers_of_runs(const std::string& campaign, int in_tests = kRunsInTests) {
   if (const auto only = number_in_environment(campaign + "_CAMPAIGN_RUN")) return {*only};
   const auto asked = number_in_environment(campaign + "_CAMPAIGN_RUNS");
-  std::vector<int> all(static_cast<std::size_t>(asked.value_or(kRunsInTests)));
+  std::vector<int> all(static_cast<std::size_t>(asked.value_or(in_tests)));
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
@@ -52,11 +52,11 @@ inline bool wants_table(const std::string& campaign) {
 /// Calls `run` with the number of each run, which is its seed, within a test. A run that fails does
 /// not keep the others from being made.
 inline void make_runs(const std::string& campaign, const std::string& name, Account& account,
-                      const std::function<void(int)>& run) {
+                      const std::function<void(int)>& run, int in_tests = kRunsInTests) {
   const auto failures = [] {
     return ::testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count();
   };
-  for (const int number : numbers_of_runs(campaign)) {
+  for (const int number : numbers_of_runs(campaign, in_tests)) {
     SCOPED_TRACE("run " + std::to_string(number) + " of " + name);
     const int before = failures();
     run(number);

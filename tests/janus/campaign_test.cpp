@@ -4,6 +4,7 @@
 // time that was promised, does not move before it is armed again, and then does what it is told.
 //
 //     JANUS_CAMPAIGN_RUNS=1000 janus_deployed_campaign    as many runs of each
+//     JANUS_CAMPAIGN_RUN=16 janus_deployed_campaign       that run of each, such as one that failed
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -23,14 +24,15 @@ namespace {
 using namespace std::chrono_literals;
 using component::State;
 
-int asked_or(int runs) {
-  return campaign::number_in_environment("JANUS_CAMPAIGN_RUNS").value_or(runs);
-}
+/// Unless more are asked for.
+constexpr int kRuns = 10;
 
 /// A moving head, and what is always so.
 class Head {
  public:
-  explicit Head(const std::string& mode) : robot("pid.yaml", {"mode=" + mode}) {
+  /// @param its_run  by which modes of the bus and cards take turns
+  explicit Head(int its_run)
+      : run(its_run), robot("pid.yaml", {run % 2 == 0 ? "mode=synchronous" : "mode=sequential"}) {
     robot.start_armed();
     EXPECT_EQ(robot.move_to({3.0, 3.0}, 6.0), "");
   }
@@ -121,6 +123,9 @@ class Head {
     }
   }
 
+  int card() const { return 1 + run / 2 % 2; }
+
+  const int run;
   Robot robot;
   can::VirtualStation* garbage = nullptr;
 };
@@ -130,24 +135,24 @@ struct Breakage {
   std::function<void(Head&, int card)> happens;
   std::function<void(Head&)> ends;
   base::Duration off_within;  ///< 0: the motion goes on
-  int runs = 10;              ///< unless more are asked for
+  int runs = kRuns;
 };
 
 /// Each component on the way, of both cards, in both modes of the bus.
 constexpr int kEachOnTheWay = 11 * 2 * 2;
 
 /// The n-th of what is on the way from the generator to the motors.
-std::string component_on_the_way(unsigned n, int card) {
+std::string component_on_the_way(int n, int card) {
   const std::string number = std::to_string(card);
   const std::string names[] = {"Generator", "BridgeRef",      "Controller",   "PID" + number,
                                "Actuator",  "Joint" + number, "AIC" + number, "Cards",
                                "Sensor",    "Sampler",        "Arming"};
-  return names[n % std::size(names)];
+  return names[static_cast<std::size_t>(n) % std::size(names)];
 }
 
 /// Writes a number that is none at the n-th place of the way to the motors: where it is used at
 /// once, and not written over by the next good one.
-void write_no_number(Head& head, unsigned n, int card) {
+void write_no_number(Head& head, int n, int card) {
   const double none = n % 2 == 0 ? std::numeric_limits<double>::quiet_NaN()
                                  : std::numeric_limits<double>::infinity();
   const std::string joint = "Joint" + std::to_string(card);
@@ -168,43 +173,50 @@ void write_no_number(Head& head, unsigned n, int card) {
   }
 }
 
+/// A run that fails does not keep the others from being made.
+void make_runs(const std::string& name, int in_tests, const std::function<void(int)>& run) {
+  campaign::Account account;
+  campaign::make_runs("JANUS", name, account, run, in_tests);
+  campaign::print_failed(name, account);
+}
+
 class Campaign : public ::testing::TestWithParam<Breakage> {};
 
-TEST_P(Campaign, AtAnyTimeItEndsAsPromised) {
-  const Breakage& breakage = GetParam();
-  std::mt19937 random(20261121);
-  for (int run = 0; run < asked_or(breakage.runs); ++run) {
-    SCOPED_TRACE("run " + std::to_string(run));
-    Head head(run % 2 == 0 ? "synchronous" : "sequential");
-    head.run_for(std::chrono::milliseconds(500 + random() % 5000));
-    breakage.happens(head, 1 + run / 2 % 2);
-    if (breakage.off_within == 0ms) {
-      head.run_for(8s);
-      ASSERT_NEAR(head.positions()[0], 3.0, 0.03);
-      ASSERT_NEAR(head.positions()[1], 3.0, 0.03);
-      continue;
-    }
-    head.run_for(breakage.off_within);
-    ASSERT_TRUE(head.off());
-    ASSERT_FALSE(head.passes_efforts("Joint1"));
-    ASSERT_FALSE(head.passes_efforts("Joint2"));
-    head.run_for(4s);  // joint 1 has no brake, and may coast
-    const Vector rest = head.positions();
-    breakage.ends(head);
-    head.run_for(100ms);
-    head.put_back_into_service();
-    head.run_for(1s);
-    ASSERT_TRUE(head.off()) << "nothing arms itself";
-    ASSERT_NEAR(head.positions()[0], rest[0], 1e-4);
-    ASSERT_NEAR(head.positions()[1], rest[1], 2e-3);
-    const Vector believed{head.robot.value<double>("Joint1", "Position"),
-                          head.robot.value<double>("Joint2", "Position")};
-    head.robot.arm();
-    ASSERT_EQ(head.robot.move_to({believed[0] * 0.9, believed[1] * 0.9}, 1.0), "");
-    head.run_for(3s);
-    ASSERT_NEAR(head.robot.value<double>("Joint1", "Position"), believed[0] * 0.9, 2e-3);
-    ASSERT_NEAR(head.robot.value<double>("Joint2", "Position"), believed[1] * 0.9, 2e-3);
+void break_once(const Breakage& breakage, int run) {
+  std::mt19937 random(static_cast<unsigned>(20261121 + run));
+  Head head(run);
+  head.run_for(std::chrono::milliseconds(500 + random() % 5000));
+  breakage.happens(head, head.card());
+  if (breakage.off_within == 0ms) {
+    head.run_for(8s);
+    ASSERT_NEAR(head.positions()[0], 3.0, 0.03);
+    ASSERT_NEAR(head.positions()[1], 3.0, 0.03);
+    return;
   }
+  head.run_for(breakage.off_within);
+  ASSERT_TRUE(head.off());
+  ASSERT_FALSE(head.passes_efforts("Joint1"));
+  ASSERT_FALSE(head.passes_efforts("Joint2"));
+  head.run_for(4s);  // joint 1 has no brake, and may coast
+  const Vector rest = head.positions();
+  breakage.ends(head);
+  head.run_for(100ms);
+  head.put_back_into_service();
+  head.run_for(1s);
+  ASSERT_TRUE(head.off()) << "nothing arms itself";
+  ASSERT_NEAR(head.positions()[0], rest[0], 1e-4);
+  ASSERT_NEAR(head.positions()[1], rest[1], 2e-3);
+  const Vector believed{head.robot.value<double>("Joint1", "Position"),
+                        head.robot.value<double>("Joint2", "Position")};
+  head.robot.arm();
+  ASSERT_EQ(head.robot.move_to({believed[0] * 0.9, believed[1] * 0.9}, 1.0), "");
+  head.run_for(3s);
+  ASSERT_NEAR(head.robot.value<double>("Joint1", "Position"), believed[0] * 0.9, 2e-3);
+  ASSERT_NEAR(head.robot.value<double>("Joint2", "Position"), believed[1] * 0.9, 2e-3);
+}
+
+TEST_P(Campaign, AtAnyTimeItEndsAsPromised) {
+  make_runs(GetParam().name, GetParam().runs, [](int run) { break_once(GetParam(), run); });
 }
 
 /// The largest acceleration with which a joint of the head moves for so long [rad/s^2].
@@ -225,30 +237,31 @@ double largest_acceleration(Head& head, base::Duration duration) {
   return largest;
 }
 
+void lose_reference_once(int run) {
+  std::mt19937 random(static_cast<unsigned>(20261122 + run));
+  Head head(run);
+  // Not while the effort is still limited after arming: who has none cannot brake.
+  head.run_for(std::chrono::milliseconds(1200 + random() % 4500));
+  ASSERT_TRUE(head.robot.application().stop_component("Generator"));
+  ASSERT_LT(largest_acceleration(head, 1s), 10.0) << "twice that of the reference";
+  const Vector rest = head.positions();
+  head.run_for(1s);
+  ASSERT_EQ(head.robot.value<int>("Controller", "brakings"), 1);
+  ASSERT_NEAR(head.positions()[0], rest[0], 1e-4);
+  ASSERT_NEAR(head.positions()[1], rest[1], 1e-4);
+  ASSERT_TRUE(head.robot.application().start_component("Generator"));
+  head.run_for(1s);
+  ASSERT_NEAR(head.positions()[0], rest[0], 1e-3) << "the old motion is not gone on with";
+  ASSERT_NEAR(head.positions()[1], rest[1], 1e-3);
+  ASSERT_TRUE(head.robot.value<bool>("Arming", "armed"));
+  ASSERT_EQ(head.robot.move_to({1.0, 2.0}, 3.0), "");
+  head.run_for(4s);
+  ASSERT_NEAR(head.positions()[0], 1.0, 1e-3);
+  ASSERT_NEAR(head.positions()[1], 2.0, 1e-3);
+}
+
 TEST(CampaignOfReferences, AtAnyTimeTheHeadBrakesSmoothlyAndGoesOnWithoutBeingArmedAgain) {
-  std::mt19937 random(20261122);
-  for (int run = 0; run < asked_or(10); ++run) {
-    SCOPED_TRACE("run " + std::to_string(run));
-    Head head(run % 2 == 0 ? "synchronous" : "sequential");
-    // Not while the effort is still limited after arming: who has none cannot brake.
-    head.run_for(std::chrono::milliseconds(1200 + random() % 4500));
-    ASSERT_TRUE(head.robot.application().stop_component("Generator"));
-    ASSERT_LT(largest_acceleration(head, 1s), 10.0) << "twice that of the reference";
-    const Vector rest = head.positions();
-    head.run_for(1s);
-    ASSERT_EQ(head.robot.value<int>("Controller", "brakings"), 1);
-    ASSERT_NEAR(head.positions()[0], rest[0], 1e-4);
-    ASSERT_NEAR(head.positions()[1], rest[1], 1e-4);
-    ASSERT_TRUE(head.robot.application().start_component("Generator"));
-    head.run_for(1s);
-    ASSERT_NEAR(head.positions()[0], rest[0], 1e-3) << "the old motion is not gone on with";
-    ASSERT_NEAR(head.positions()[1], rest[1], 1e-3);
-    ASSERT_TRUE(head.robot.value<bool>("Arming", "armed"));
-    ASSERT_EQ(head.robot.move_to({1.0, 2.0}, 3.0), "");
-    head.run_for(4s);
-    ASSERT_NEAR(head.positions()[0], 1.0, 1e-3);
-    ASSERT_NEAR(head.positions()[1], 2.0, 1e-3);
-  }
+  make_runs("ReferenceLost", kRuns, lose_reference_once);
 }
 
 const auto kNothing = [](Head&) {};
@@ -287,13 +300,11 @@ INSTANTIATE_TEST_SUITE_P(
         Breakage{"GarbageOfGreatUrgency", [](Head& head, int) { head.fill_bus_with(0x010); },
                  [](Head& head) { head.end_garbage(); }, 200ms},
         Breakage{"AComponentThrows",
-                 [n = 0u](Head& head, int card) mutable {
-                   head.throw_in(component_on_the_way(n++, card));
-                 },
+                 [](Head& head, int card) { head.throw_in(component_on_the_way(head.run, card)); },
                  kNothing, 300ms, kEachOnTheWay},
         Breakage{"ANumberIsNone",
-                 [n = 0u](Head& head, int card) mutable { write_no_number(head, n++, card); },
-                 kNothing, 300ms, kEachOnTheWay},
+                 [](Head& head, int card) { write_no_number(head, head.run, card); }, kNothing,
+                 300ms, kEachOnTheWay},
         Breakage{"SamplerStops",
                  [](Head& head, int) {
                    ASSERT_TRUE(head.robot.application().stop_component("Sampler"));
