@@ -269,6 +269,7 @@ class AtATerminal(unittest.TestCase):
         terminal.type("Source.\t\t")
         terminal.expect("Source.Position")
         terminal.type("\x03")
+        terminal.expect("^C")  # Ctrl-D behind "Source." would only list
         terminal.leave()
 
     def test_an_interrupt_while_the_terminal_takes_nothing_is_no_error_of_the_output(self):
