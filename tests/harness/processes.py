@@ -116,7 +116,7 @@ def states_in(file):
 
 def main_with_second_chances(chances=3):
     """Runs the tests of the calling module. One that fails may be tried again, since a machine that others use stalls now and then for longer than
-    data may be old, which rightly stops a robot, or than a program waits for another: what fails each time has failed."""
+    data may be old, which rightly stops a robot: what fails each time has failed."""
     suite = unittest.defaultTestLoader.loadTestsFromModule(sys.modules["__main__"])
     for _ in range(chances):
         result = unittest.TextTestRunner(verbosity=2).run(suite)

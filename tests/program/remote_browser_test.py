@@ -21,9 +21,6 @@ import threading
 import time
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "harness"))
-from processes import main_with_second_chances
-
 PROGRAM = sys.argv[1]
 LONG = 30.0
 LIFT = """application: lift
@@ -305,11 +302,14 @@ class Tls(unittest.TestCase):
         robot = Robot(folder.name, "allow operator@tls read,command *\n", "tls://127.0.0.1:0", TLS)
         self.addCleanup(robot.stop)
         place = folder.name + "/"
-        done = subprocess.run(
-            [PROGRAM, "browse", robot.address, "--certificate", place + "operator.pem", "--key",
-             place + "operator.key", "--authority", place + "authority.pem"],
-            input="Lift.Top\nLift:height()\nstop Lift\n", capture_output=True, text=True,
-            timeout=120)
+        for _ in range(3):  # The program waits 3 s: on a busy machine a handshake may take longer.
+            done = subprocess.run(
+                [PROGRAM, "browse", robot.address, "--certificate", place + "operator.pem", "--key",
+                 place + "operator.key", "--authority", place + "authority.pem"],
+                input="Lift.Top\nLift:height()\nstop Lift\n", capture_output=True, text=True,
+                timeout=120)
+            if "it has not answered yet" not in done.stderr:
+                break
         self.assertEqual(done.stdout, "3 m\n0\n", done.stderr)
         self.assertIn("operator@tls may not configure 'Lift'", done.stderr)
 
@@ -468,5 +468,4 @@ class AtATerminal(WithARobot):
 
 
 if __name__ == "__main__":
-    # The program waits 3 s for a first connection, which a busy machine may take longer for.
-    main_with_second_chances()
+    unittest.main(argv=sys.argv[:1], verbosity=2)
